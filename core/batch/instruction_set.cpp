@@ -12,7 +12,7 @@ struct BuiltKernels {
   const Kernels* kernels;
 };
 
-/// Kernels in this build, the widest instruction set first.
+/// Kernels (inner loops) that this build contains, one entry per instruction set, the widest first.
 constexpr std::array built{
 #ifdef ZEROCOUNT_KERNELS_AVX512
     BuiltKernels{InstructionSet::avx512, &avx512_kernels},

@@ -7,7 +7,7 @@
 
 namespace zerocount {
 
-/// The exit codes of the process.
+/// The exit codes of the process, one per kind of failure.
 enum class ExitCode : int {
   success = 0,
   regression = 1,

@@ -14,20 +14,21 @@
 
 namespace zerocount::friction {
 
-/// Selects a parameter of a contact.
+/// Pointer to a member of FrictionParameters, which selects one friction parameter.
 using ContactField = double FrictionParameters::*;
 
-/// Manner in which a law begins to slide.
+/// Manner in which a friction law passes from rest to sliding.
 enum class Breakaway {
   never,    ///< The law has no contact that could break away.
-  of_hook,  ///< At one instant. breakaways() counts these instants.
-  gradual   ///< Gradually. sliding() is evaluated at the sampling instants.
+  of_hook,  ///< The contact breaks away at one instant, when the end of its spring (hook) begins to slide;
+            ///< breakaways() counts these instants.
+  gradual   ///< Sliding sets in gradually; sliding() is evaluated at the sampling instants.
 };
 
-/// A friction law between rotor and bearing (README.md): its state, including the rotor's, and its motion. A
-/// law is either a SmoothMotion, which the plant advances from event to event, or it has step(torque,
-/// duration), which advances by at most `duration` (s), by taylor_step or in closed form, and returns the
-/// time used.
+/// Requirements on a friction law between rotor and bearing (README.md). A law holds its own state and the
+/// rotor's, and computes their motion. A law is either a SmoothMotion, which the plant advances from event to
+/// event, or it has step(torque, duration), which advances the motion by at most `duration` (s), by
+/// taylor_step or in closed form, and returns the time used.
 template <class Law>
 concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters&, const FrictionAlongRotor&,
                                               const motion::PlantStart&, const motion::MotionTolerance&> &&
@@ -57,7 +58,8 @@ concept FrictionLaw = std::constructible_from<Law, const motion::PlantParameters
   law.forget_deepest();
 };
 
-/// Base of laws without creep and without a stack of reversal points.
+/// Base of friction laws without creep and without a stack of reversal points: the corresponding functions
+/// return zero.
 struct WithoutCreepAndReversals {
   static CreepState creep() { return {}; }
   static std::int64_t depth() { return 0; }
@@ -67,7 +69,7 @@ struct WithoutCreepAndReversals {
 
 struct BristleParameters;
 
-/// Properties of a law that do not depend on its state.
+/// Properties of a friction law that do not depend on its state.
 struct LawTraits {
   std::string_view word;
   std::span<const ContactField> contact_parameters;
@@ -78,11 +80,11 @@ struct LawTraits {
   Breakaway breakaway;
   LinearContacts (*linear_contacts)(const motion::PlantParameters&, const FrictionAlongRotor&,
                                     const FrictionParameters& contact);
-  /// The parameters of a law that is a bristle; null for other laws.
+  /// Function that gives the parameters of a bristle law (Dahl, LuGre); null for other laws.
   BristleParameters (*bristle)(const motion::PlantParameters&, const FrictionParameters& contact);
 };
 
-/// Whether the law has this parameter of the contact.
+/// Whether the friction law uses this parameter of the contact.
 constexpr bool uses(const LawTraits& law, ContactField field) {
   return std::find(law.contact_parameters.begin(), law.contact_parameters.end(), field) !=
          law.contact_parameters.end();

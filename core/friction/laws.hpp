@@ -13,12 +13,12 @@ namespace zerocount::friction {
 template <FrictionLaw... Laws>
 struct LawList {
   template <template <class> class Of>
-  /// One alternative for each law, for instance a plant with that law.
+  /// A std::variant with one alternative for each friction law, for instance a plant with that law.
   using Variant = std::variant<Of<Laws>...>;
   static constexpr std::array traits{traits_of<Laws>()...};
 };
 
-/// All laws, in the order of FrictionModel.
+/// All friction laws, in the order of FrictionModel.
 using FrictionLaws = LawList<PreslidingFriction, SpringFriction, CoulombFriction, NoFriction, DahlFriction,
                              LuGreFriction, GmsFriction>;
 

@@ -8,19 +8,20 @@
 
 namespace zerocount::friction {
 
-/// A contact that does not change: a spring and a damper, or the damper alone.
+/// Linear approximation of a friction contact: a spring and a damper in parallel, or the damper alone.
 struct LinearContact {
   std::string_view name;
-  double stiffness;    ///< N m/rad
-  double damping;      ///< N m s/rad
-  bool slides{false};  ///< The contact yields, so that it has no stiffness.
+  double stiffness;    ///< Stiffness of the spring, N m/rad
+  double damping;      ///< Viscous damping, N m s/rad
+  bool slides{false};  ///< Whether the contact slides, so that it has no stiffness
 };
 
-/// The contacts that approximate a law, from the softest to the stiffest before it slides, and while it
-/// slides.
+/// Linear contacts that approximate a friction law: first those before it slides, from the softest to the
+/// stiffest, then the one while it slides.
 using LinearContacts = std::vector<LinearContact>;
 
-/// The stiffest contact before sliding. If there is none, a contact without stiffness and damping.
+/// The stiffest of the linear contacts that do not slide. If there is none, a contact without stiffness and
+/// damping.
 inline LinearContact stiffest_of(const LinearContacts& contacts) {
   LinearContact stiffest{"", 0.0, 0.0};
   for (const LinearContact& contact : contacts)
@@ -28,12 +29,13 @@ inline LinearContact stiffest_of(const LinearContacts& contacts) {
   return stiffest;
 }
 
-/// The contact of a sliding hook: the damping cs alone.
+/// The linear approximation of a contact that slides: no stiffness, and the damping cs.
 inline LinearContact sliding_contact(const motion::PlantParameters& plant) {
   return {"while sliding", 0.0, plant.sliding_damping, true};
 }
 
-/// The linear contacts of a hysteretic spring.
+/// The linear contacts that approximate a hysteretic spring: with its lowest stiffness k1, with its highest
+/// k1 + k2, and while it slides.
 inline LinearContacts contacts_of_spring(const motion::PlantParameters& plant, const FrictionAlongRotor&,
                                          const FrictionParameters& contact) {
   const double damping = plant.presliding_damping;

@@ -9,7 +9,8 @@
 namespace zerocount::friction {
 namespace {
 
-/// Direction in which a load at rest begins to move; 0 if it stays at rest.
+/// Direction in which a second mass at rest begins to move, −1 or 1, from the series of its velocity; 0 if it
+/// stays at rest.
 double heading_from_rest(const numerics::Series& omega) {
   for (const double coefficient : omega)
     if (coefficient != 0.0) return numerics::sign_of(coefficient);

@@ -13,14 +13,16 @@ namespace zerocount::friction {
 
 enum class LoadFrictionModel { none, coulomb, dahl, lugre };
 
-/// Friction of a second mass: the law of that name, without its viscous part. It starts virgin.
+/// Friction between a second mass and the frame, by the law of that name without its viscous part. At t = 0
+/// it is virgin: it carries no torque and has no history.
 struct LoadFrictionParameters {
   LoadFrictionModel model{LoadFrictionModel::none};
   FrictionParameters contact{};
 };
 
-/// The load stands until the torque on it passes the breakaway torque, and slides by Slide until ωL = 0. A
-/// torque at the breakaway level is treated as in stand_step().
+/// Coulomb friction on a second mass. The mass stands until the torque on it passes the breakaway torque, and
+/// slides as described at Slide until its velocity ωL = 0. A torque at the breakaway level is treated as in
+/// stand_step().
 class CoulombOnLoad final : public motion::LoadFriction {
  public:
   CoulombOnLoad(const FrictionParameters& contact, double inertia, double velocity);
@@ -49,7 +51,8 @@ class CoulombOnLoad final : public motion::LoadFriction {
   StandingSeries standing_series_{};
 };
 
-/// A bristle by the law of Dahl or LuGre (BristleMotion), between load and frame.
+/// Friction on a second mass by the bristle law of Dahl or LuGre (BristleMotion), between the mass and the
+/// frame.
 class BristleOnLoad final : public motion::LoadFriction {
  public:
   BristleOnLoad(const BristleParameters& parameters, double inertia)
@@ -77,14 +80,14 @@ class BristleOnLoad final : public motion::LoadFriction {
 
 using FrictionOfLoad = std::variant<std::monostate, CoulombOnLoad, BristleOnLoad>;
 
-/// The friction as an interface; null without friction.
+/// Pointer to the friction of a second mass as its interface LoadFriction; null without friction.
 inline motion::LoadFriction* to_load_friction(FrictionOfLoad& friction) {
   if (auto* const coulomb = std::get_if<CoulombOnLoad>(&friction)) return coulomb;
   return std::get_if<BristleOnLoad>(&friction);
 }
 
-/// Friction of a load in its initial state.
-/// @param inertia JL, kg m². @param velocity ωL at the start, rad/s.
+/// Creates the friction of a second mass in its initial state.
+/// @param inertia inertia JL of the mass, kg m². @param velocity velocity ωL of the mass at the start, rad/s.
 FrictionOfLoad friction_of_load(const LoadFrictionParameters& friction, double inertia, double velocity);
 
 }  // namespace zerocount::friction

@@ -28,7 +28,8 @@ double field_at(const Profile& profile, double position) {
 
 namespace {
 
-/// The normally distributed value that the marginal transforms: the value itself, or its logarithm.
+/// The normally distributed value behind the friction parameter: the value itself (normal), or its logarithm
+/// (lognormal). @param field Gaussian field g.
 double normal_value(const Profile& profile, double field) {
   return profile.location + profile.scale * field;
 }
@@ -55,13 +56,14 @@ namespace {
 constexpr std::size_t block_size = 16;
 using Block = std::array<double, block_size>;
 
-/// The field at θ, π − θ, π + θ and −θ. Angles are fractions of a period.
+/// The profile's Gaussian field at the angles θ, π − θ, π + θ and −θ. Angles are fractions of a period.
 struct FourFields {
   Block ahead, mirrored, opposite, behind;
 };
 
-/// The field at four times `block_size` angles, from `first` on, `spacing` apart: field_at() in vectors, to
-/// rounding. cos mθ and sin mθ at the four angles differ only in sign.
+/// The Gaussian field at four times `block_size` angles, from `first` on, `spacing` apart (fractions of a
+/// period). Equal to field_at() within rounding, but vectorised: cos mθ and sin mθ at the four angles differ
+/// only in sign.
 FourFields fields_from(const Profile& profile, double first, double spacing) {
   Block turn_real;
   Block turn_imaginary;
@@ -103,14 +105,15 @@ FourFields fields_from(const Profile& profile, double first, double spacing) {
   return fields;
 }
 
-/// Positions of the extreme values among the searched positions.
+/// Positions of the lowest and the highest value among the searched positions.
 struct ExtremePositions {
   double lowest{0.0};   // rad or m
   double highest{0.0};  // rad or m
   double spacing{0.0};  // of the positions searched, rad or m
 };
 
-/// Searches 16 positions per shortest wavelength. The marginal is monotonic: the normal values are compared.
+/// Searches the extreme values of a profile at 16 positions per shortest wavelength. The transformation to
+/// the parameter's value is monotonic, so the normally distributed values are compared.
 ExtremePositions find_extremes(const Profile& profile) {
   constexpr std::size_t alike = 4;  // angles whose fields are found together
   const std::size_t blocks = (std::max<std::size_t>(4, profile.cosine.size()) + alike - 1) / alike;

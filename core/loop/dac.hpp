@@ -7,22 +7,26 @@
 
 namespace zerocount::loop {
 
-std::int64_t lowest_code(const DacParameters& dac);   ///< −2^(bits−1)
-std::int64_t highest_code(const DacParameters& dac);  ///< 2^(bits−1) − 1
+std::int64_t lowest_code(const DacParameters& dac);   ///< Lowest code of the converter, −2^(bits−1)
+std::int64_t highest_code(const DacParameters& dac);  ///< Highest code of the converter, 2^(bits−1) − 1
 
-/// Lowest torque that the motor can be asked for, N m: lowest_code·Δu, or −limit.
+/// Lowest torque that the motor can be asked for, N m: that of the lowest code, lowest_code·Δu, or the
+/// negative limit of the amplifier if that is nearer to 0.
 double lowest_torque(const DacParameters& dac);
 double highest_torque(const DacParameters& dac);  ///< Highest torque that the motor can be asked for, N m:
-                                                  ///< highest_code·Δu, or limit.
+                                                  ///< that of the highest code, highest_code·Δu, or the limit
+                                                  ///< of the amplifier if that is lower.
 
-/// The converter's output for a wanted torque.
+/// Output of the digital-to-analogue converter for a wanted torque.
 struct DacOutput {
   std::int64_t code{0};
-  double torque{0.0};   ///< code·Δu, N m
-  bool clipped{false};  ///< The wanted code was out of range, or the wanted torque beyond the limit
+  double torque{0.0};   ///< Torque of the code, code·Δu, N m
+  bool clipped{false};  ///< Whether the wanted code was out of range, or the wanted torque beyond the
+                        ///< amplifier's limit
 };
 
-/// code = round-half-even(torque/Δu), clipped to the converter's range.
+/// Converts a wanted torque to a code of the digital-to-analogue converter: round-half-even(torque/Δu),
+/// clipped to the converter's range.
 /// @param torque wanted torque, N m.
 DacOutput convert(const DacParameters& dac, double torque);
 
@@ -43,18 +47,20 @@ class Converter {
     return output;
   }
 
-  /// The torque (N m), clipped to ± the limit.
+  /// The torque (N m), clipped to ± the limit of the amplifier.
   double within_limit(double torque) const { return clamped(torque, -dac_.limit, dac_.limit); }
 
  private:
   DacParameters dac_;
-  double remainder_{0.0};  ///< r, N m; 0 without sigma-delta
+  double remainder_{0.0};  ///< Rounding error r that a sigma-delta converter adds to the next torque, N m; 0
+                           ///< without sigma-delta
 };
 
-/// Whether the output of the converter differs from code·Δu.
+/// Whether the output of the converter differs from code·Δu because of offset, gain error, non-linearity or
+/// noise.
 bool has_errors(const DacParameters& dac);
 
-/// Output of the converter for `code`, without noise, N m:
+/// Output torque of the converter for `code` with its systematic errors, without noise, N m:
 ///
 ///   Δu·(1 + gain_error)·(code + INL(code)) + offset,
 ///   INL(code) = nonlinearity·4·(code − lowest)·(highest − code)/(highest − lowest)²   codes,

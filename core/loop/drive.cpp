@@ -12,8 +12,8 @@
 namespace zerocount::loop {
 namespace {
 
-/// Bandwidth limit, Hz: a torque settles within a picosecond. The series of a faster rise would leave the
-/// range of a double.
+/// Largest bandwidth of the amplifier that is simulated, Hz: the torque then settles within a picosecond. The
+/// series of a faster rise would leave the range of a double.
 constexpr double max_bandwidth = 1e12;
 
 }  // namespace
@@ -52,8 +52,8 @@ Drive::Part Drive::part(double duration) const {
   return {duration, rate_ == 0.0 ? 1.0 : numerics::exp(-rate_ * duration)};
 }
 
-/// Sends a torque with late samples. At most three torques become due between two samples, because these are
-/// less than two sample times apart.
+/// Passes a torque through delay and amplifier if samples may be late. At most three torques become due
+/// between two samples, because these are less than two sample times apart.
 void Drive::apply_late(double torque, const Lateness& late) {
   changes_.push_back({delay_time_ + late.now, torque});
   const double end = sample_time_ + late.next;
@@ -99,7 +99,8 @@ double ConverterErrors::with_errors(std::int64_t k, std::int64_t code) const {
                                    random::random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
 }
 
-/// The piece with this input after the piece `last`.
+/// The piece of the motor's torque with the amplifier input `input` that follows the piece `last`. @param
+/// part its duration, and the decay of the amplifier's lag in it.
 TorquePiece Drive::follow(double input, const TorquePiece& last, const Part& part) const {
   if (rate_ == 0.0) return {motion::constant_torque(input), part.duration, 1.0};
   double lag = (last.course.now - last.course.settled) * last.decay;

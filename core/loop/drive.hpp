@@ -13,21 +13,22 @@
 
 namespace zerocount::loop {
 
-/// A delay of n + f samples for the decided torques, n whole, 0 ≤ f < 1.
+/// Delays the decided torques by n + f samples, n a whole number and 0 ≤ f < 1.
 class TorqueDelay {
  public:
-  /// Torques that leave the delay during sample k. For the fraction f of the sample it is `before`, the
-  /// torque decided at k − n − 1; then it is `after`, the torque decided at k − n.
+  /// Torques that leave the delay during sample k: for the first part of the sample, the fraction f, it is
+  /// `before`, the torque decided at k − n − 1; for the rest it is `after`, the torque decided at k − n.
   struct Leaving {
     double before;
     double after;
   };
 
-  /// @param held the torque that leaves the delay before the first one has passed it, N m.
+  /// Creates a delay of `samples` samples. @param held the torque that leaves the delay until the first
+  /// decided one has passed it, N m.
   explicit TorqueDelay(double samples, double held = 0.0);
 
   Leaving pass(double torque);
-  double fraction() const { return fraction_; }  ///< f
+  double fraction() const { return fraction_; }  ///< Fraction f of a sample in the delay n + f, 0 ≤ f < 1
 
  private:
   std::vector<double> waiting_;
@@ -35,20 +36,21 @@ class TorqueDelay {
   double fraction_;
 };
 
-/// A part of a sample in which the input of the motor's drive stays the same.
+/// The motor's torque over a part of a sample in which the input of the motor's amplifier stays constant.
 struct TorquePiece {
   motion::TorqueCourse course;
-  double duration{0.0};  ///< s
-  double decay{0.0};     ///< exp(−course.rate·duration)
+  double duration{0.0};  ///< Duration of the part, s
+  double decay{0.0};     ///< Factor by which the amplifier's lag decays over the part:
+                         ///< exp(−course.rate·duration)
 };
 
-/// The output of the converter for a code: torque_with_errors(code) + noise·z_k, z_k standard normal, number
-/// k of its key; without errors code·Δu.
+/// The converter's output torque for a code, with its errors: torque_with_errors(code) + noise·z_k, z_k the
+/// standard normal random number with number k of its key; without errors code·Δu.
 class ConverterErrors {
  public:
   ConverterErrors(const DacParameters& dac, const random::TrialRandomness& randomness);
 
-  /// The torque of sample k, N m.
+  /// The converter's output torque for the code that was decided at sample k, N m.
   double torque(std::int64_t k, const DacOutput& decided) const {
     return any_ ? with_errors(k, decided.code) : decided.torque;
   }
@@ -62,10 +64,11 @@ class ConverterErrors {
   std::uint64_t trial_;
 };
 
-/// 2πf, 1/s: the rate at which the amplifier's torque approaches its input; 0 without an amplifier.
+/// Rate 2πf at which the amplifier's torque approaches its input, f its bandwidth, 1/s; 0 without an
+/// amplifier.
 double lag_rate(const AmplifierParameters& amplifier);
 
-/// Lateness of this sample and of the next one, s.
+/// Times by which this sample and the next one are late, s.
 struct Lateness {
   double now{0.0};
   double next{0.0};
@@ -95,23 +98,26 @@ class Drive {
   Drive(const DacParameters& dac, const AmplifierParameters& amplifier, double delay, double sample_time,
         const random::TrialRandomness& randomness, bool jitter = false, double held = 0.0);
 
-  /// Sends the code of sample k through converter, delay and amplifier.
+  /// Sends the code decided at sample k through converter, delay and amplifier. @param late lateness of this
+  /// and the next sample.
   void send(std::int64_t k, const DacOutput& decided, const Lateness& late = {}) {
     apply(converter_.torque(k, decided), late);
   }
 
-  /// Sends a torque (N m) past the converter, so without its rounding and errors, through delay and
+  /// Sends a torque (N m) past the converter, so without rounding and converter errors, through delay and
   /// amplifier.
   void send_exact(double torque, const Lateness& late = {}) { apply(torque, late); }
 
-  /// The motor's torque from the last sample sent to the next one; valid until that is sent.
+  /// The motor's torque from the last sample sent to the next one, as successive parts with a constant
+  /// amplifier input; valid until the next sample is sent.
   std::span<const TorquePiece> pieces() const { return {pieces_.data(), count_}; }
 
-  /// The motor's torque at the last t_k, just after sending, N m; before the first, the torque held.
+  /// The motor's torque at the last sampling instant t_k, just after sending, N m; before the first, the
+  /// torque held at the start.
   double torque() const { return pieces_.front().course.now; }
 
  private:
-  /// A duration (s) and the factor by which the amplifier's lag decays in it.
+  /// A part of a sample: its duration (s), and the factor by which the amplifier's lag decays in it.
   struct Part {
     double duration;
     double decay;
@@ -129,10 +135,10 @@ class Drive {
   std::array<TorquePiece, 4> pieces_{};  // of the last sample
   std::size_t count_{1};                 // of its pieces
 
-  /// A torque that becomes the amplifier's input.
+  /// A future change of the amplifier's input.
   struct Change {
-    double due;     ///< s, from t_k
-    double torque;  ///< N m
+    double due;     ///< Time of the change after t_k, s
+    double torque;  ///< Torque that becomes the amplifier's input, N m
   };
   double sample_time_;
   double delay_time_;            // s

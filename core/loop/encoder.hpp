@@ -9,18 +9,19 @@
 
 namespace zerocount::loop {
 
-/// Δx of the encoder that closes the loop, rad per count (m on a linear axis).
+/// Resolution Δx of the fine encoder, which closes the loop, rad per count (m on a linear axis).
 inline double fine_resolution(const EncoderParameters& encoders) {
   return encoders.fine_length / encoders.fine;
 }
 
-/// Δx of the coarse encoder, which is read beside the one that closes the loop, rad per count (m on a linear
+/// Resolution Δx of the coarse encoder, which is read beside the fine one, rad per count (m on a linear
 /// axis).
 inline double coarse_resolution(const EncoderParameters& encoders) {
   return encoders.coarse_length / encoders.coarse;
 }
 
-/// Fine counts in a coarse one. Encoders of one revolution have exactly the ratio of their counts.
+/// Number of fine counts in a coarse count. For two encoders of one revolution it is exactly the ratio of
+/// their counts.
 inline double fine_per_coarse(const EncoderParameters& encoders) {
   return encoders.fine / encoders.coarse * (encoders.coarse_length / encoders.fine_length);
 }
@@ -29,31 +30,33 @@ inline bool has_other(const EncoderParameters& encoders) {
   return encoders.other.counts > 0.0;
 }
 
-/// Δx of the encoder on the other mass, rad per count (m on a linear axis). Without such an encoder: Δx of
-/// the fine encoder.
+/// Resolution Δx of the encoder on the other mass, rad per count (m on a linear axis). Without such an
+/// encoder it is the Δx of the fine encoder.
 inline double other_resolution(const EncoderParameters& encoders) {
   return has_other(encoders) ? encoders.other.length / encoders.other.counts : fine_resolution(encoders);
 }
 
-/// Δx of the encoder that the velocity loop of a cascade reads.
+/// Resolution Δx of the encoder that the velocity loop of a cascade reads, rad per count (m on a linear
+/// axis).
 inline double velocity_resolution(const EncoderParameters& encoders, const ControllerParameters& controller) {
   return controller.velocity_by_other ? other_resolution(encoders) : fine_resolution(encoders);
 }
 
-/// An incremental encoder: count = floor(θ/Δx + phase), θ measured from the start of the trial.
+/// An ideal incremental encoder: count = floor(θ/Δx + phase), θ measured from the start of the trial.
 struct Encoder {
-  double resolution{1.0};  ///< Δx, rad per count
-  double phase{0.0};       ///< Position of θ = 0 within a count, in [0, 1)
+  double resolution{1.0};  ///< Resolution Δx, rad per count
+  double phase{0.0};       ///< Position of the angle θ = 0 within a count, in [0, 1)
 };
 
-/// Readings of the encoders at a sampling instant.
+/// Counts of the encoders at a sampling instant.
 struct EncoderReading {
-  std::int64_t fine{0};    ///< counts
-  std::int64_t coarse{0};  ///< counts of the coarse encoder
-  std::int64_t other{0};   ///< counts of the encoder of the other mass; 0 without it
+  std::int64_t fine{0};    ///< Count of the fine encoder
+  std::int64_t coarse{0};  ///< Count of the coarse encoder
+  std::int64_t other{0};   ///< Count of the encoder on the other mass; 0 without one
 };
 
-/// The ideal encoders of a trial. @param phase position of θ = 0 within a count of either encoder, in [0, 1).
+/// The fine encoder of a trial, without errors. @param phase position of θ = 0 within a count, in [0, 1); the
+/// coarse encoder has the same phase.
 inline Encoder fine_encoder(const EncoderParameters& encoders, double phase) {
   return {fine_resolution(encoders), phase};
 }
@@ -61,7 +64,7 @@ inline Encoder coarse_encoder(const EncoderParameters& encoders, double phase) {
   return {coarse_resolution(encoders), phase};
 }
 
-/// The count at the rotor angle θ (rad).
+/// The count that an ideal encoder shows at the rotor angle θ (rad).
 inline std::int64_t read_count(const Encoder& encoder, double theta) {
   return static_cast<std::int64_t>(ideal_count(theta, encoder.resolution, encoder.phase));
 }
@@ -73,14 +76,14 @@ inline std::int64_t read_count(const Encoder& encoder, double theta) {
 /// Here n_0 is the first reading. If v₀ = 0, all of them are n_0.
 struct CountsBefore {
   Encoder encoder{};
-  double theta{0.0};        ///< θ₀, rad
-  double velocity{0.0};     ///< v₀, rad/s
-  double sample_time{1.0};  ///< T, s
+  double theta{0.0};        ///< Angle θ₀ at the first sample, rad
+  double velocity{0.0};     ///< Velocity v₀ before the first sample, rad/s
+  double sample_time{1.0};  ///< Sample time T, s
   double unit{1.0};         ///< One count of this encoder, in the counts that the controller reads
 };
 
-/// Largest number of counts that pass before the first sample. The limit keeps the torque finite at any
-/// velocity.
+/// Largest number of counts that can have passed before the first sample. This limit keeps the torque finite
+/// at any velocity.
 inline constexpr double max_counted = 0x1p52;
 
 /// Counts n_0 − n_{−j} passed in the j samples before the first one, in the counts that the controller reads.
@@ -99,10 +102,11 @@ inline double counts_per_sample(const CountsBefore& before) {
   return before.unit * clamped(counted, -max_counted, max_counted);
 }
 
-/// Place and velocity of the masses when a trial starts.
+/// Angles, velocity and encoder phases of the masses when a trial starts.
 struct StartOfMotion {
-  double phase{0.5};        ///< Phase of the encoder on the mass that closes the loop, in [0, 1).
-  double other_phase{0.5};  ///< Phase of the encoder on the other mass, in [0, 1).
+  double phase{0.5};        ///< Position of θ = 0 within a count of the encoder that closes the loop, in [0,
+                            ///< 1)
+  double other_phase{0.5};  ///< Position of θ = 0 within a count of the encoder on the other mass, in [0, 1)
   double theta{0.0};        ///< Angle of the mass that closes the loop, rad.
   double other_theta{0.0};  ///< Angle of the other mass, rad.
   double velocity{0.0};     ///< Velocity of both masses, rad/s.

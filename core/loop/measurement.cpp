@@ -11,8 +11,8 @@
 namespace zerocount::loop {
 namespace {
 
-/// Counts are limited to the whole numbers that a double represents exactly. Only unrealistic encoder errors
-/// reach this.
+/// Largest absolute count of an encoder with errors: up to it a double represents all whole numbers exactly.
+/// Only unrealistic encoder errors reach it.
 constexpr double farthest_count = 0x1p52;
 
 }  // namespace

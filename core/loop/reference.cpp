@@ -18,7 +18,7 @@ double position_of(const ReferenceRecord& record, std::size_t row) {
   return record.position[row];
 }
 
-/// The mean velocity between two rows, rad/s.
+/// The mean velocity of a recorded reference between the rows a and b, rad/s.
 double velocity_between(const ReferenceRecord& record, std::size_t a, std::size_t b) {
   return (record.position[b] - record.position[a]) / (record.time[b] - record.time[a]);
 }
@@ -33,7 +33,8 @@ double acceleration_of(const ReferenceRecord& record, std::size_t row) {
   return 2.0 * change / (record.time[row + 1] - record.time[row - 1]);
 }
 
-/// Value at the time t (s) of a quantity given by the rows, interpolated linearly between them.
+/// Value at the time t (s) of a quantity of a recorded reference, interpolated linearly between its rows.
+/// @param of_row gives the quantity in a row.
 template <class OfRow>
 double between_rows(const ReferenceRecord& record, double t, OfRow of_row) {
   const auto after = std::upper_bound(record.time.begin(), record.time.end(), t) - record.time.begin();
@@ -132,7 +133,8 @@ double Reference::travel_time() const {
   return moves_for_ever() ? std::numeric_limits<double>::quiet_NaN() : duration_;
 }
 
-/// The angle (rad) covered since the start at the time t (s), in the first half.
+/// The angle (rad) that the reference has covered since the start of the move at the time t (s), in the first
+/// half of the move.
 double Reference::distance(double t) const {
   if (t < jerk_time_) return jerk_ * t * t * t / 6.0;
   if (t < jerk_time_ + acceleration_time_) {
@@ -167,7 +169,8 @@ ReferenceMotion Reference::motion_at(double t) const {
   return {direction * velocity(duration_ - t), -direction * acceleration(duration_ - t - rounding)};
 }
 
-/// ṙ (rad/s) at the time t (s), in the first half, forwards.
+/// Velocity ṙ of the reference (rad/s) at the time t (s), in the first half of the move, positive towards the
+/// target.
 double Reference::velocity(double t) const {
   if (t < jerk_time_) return 0.5 * jerk_ * t * t;
   if (t < jerk_time_ + acceleration_time_) return acceleration_ * (t - 0.5 * jerk_time_);
@@ -175,7 +178,8 @@ double Reference::velocity(double t) const {
   return velocity_ - 0.5 * jerk_ * until_cruise * until_cruise;
 }
 
-/// r̈ (rad/s²) at the time t (s), in the first half, forwards.
+/// Acceleration r̈ of the reference (rad/s²) at the time t (s), in the first half of the move, positive
+/// towards the target.
 double Reference::acceleration(double t) const {
   if (t < jerk_time_) return jerk_ * t;
   if (t < jerk_time_ + acceleration_time_) return acceleration_;

@@ -30,8 +30,8 @@ double record_duration(std::span<const double> times, double sample_time);
 /// "Trajectory Planning for Automatic Machines and Robots", Springer 2008, sections 3.2 and 3.4.
 class Reference {
  public:
-  /// @param profile limits above 0.
-  /// @param from, to counts.
+  /// Creates the reference of one move. @param profile shape and limits; the limits are above 0.
+  /// @param from, to targets before and after the move, counts.
   /// @param resolution Δx, rad per count.
   Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution);
 
@@ -40,12 +40,12 @@ class Reference {
   /// record to the even count. The reference is `from` before the start, and `to` from the end on.
   std::int64_t at(double t) const;
 
-  /// ṙ and r̈ at the time t, before r is rounded to counts. Both are 0 from the end of the move on, and for a
-  /// step. At a jump of the acceleration, the value just after the jump is given; 1e-12 of the duration is
-  /// allowed for rounding.
+  /// Velocity ṙ and acceleration r̈ of the reference at the time t (s) from the move's start, before r is
+  /// rounded to counts. Both are 0 from the end of the move on, and for a step. At a jump of the
+  /// acceleration, the value just after the jump is given; 1e-12 of the duration is allowed for rounding.
   ReferenceMotion motion_at(double t) const;
 
-  /// The reference (counts) before it is rounded.
+  /// The reference (counts) at the time t (s) from the move's start, before it is rounded to a whole count.
   double exact_at(double t) const;
 
   /// Duration of the move, s; infinite for a sine and a record
@@ -66,21 +66,21 @@ class Reference {
 
   std::int64_t from_;
   std::int64_t to_;
-  double resolution_;  ///< rad per count
-  double counts_;      ///< |to − from|
-  double travel_;      ///< |to − from|, rad
+  double resolution_;  ///< Resolution Δx of the encoder, rad per count
+  double counts_;      ///< Distance of the move, |to − from|, counts
+  double travel_;      ///< Distance of the move, |to − from|, rad
 
   // The first half: acceleration rising for jerk_time_, constant for acceleration_time_, falling for
   // jerk_time_, and none until duration_/2. A trapezoidal move has no jerk_time_.
-  double jerk_{0.0};               ///< Rate at which the acceleration rises, rad/s³
-  double acceleration_{0.0};       ///< Largest acceleration reached, rad/s²
-  double velocity_{0.0};           ///< Largest velocity reached, rad/s
-  double jerk_time_{0.0};          ///< Time for which the acceleration rises, s
+  double jerk_{0.0};               ///< Rate at which the acceleration of the reference rises, rad/s³
+  double acceleration_{0.0};       ///< Largest acceleration that the reference reaches, rad/s²
+  double velocity_{0.0};           ///< Largest velocity that the reference reaches, rad/s
+  double jerk_time_{0.0};          ///< Time for which the acceleration rises at the jerk limit, s
   double acceleration_time_{0.0};  ///< Time for which the acceleration is constant, s
   double speed_up_time_{0.0};      ///< Time until the largest velocity is reached, s
   double duration_{0.0};           ///< Duration of the move, s
 
-  double amplitude_{0.0};          ///< Amplitude of a sine, rad
+  double amplitude_{0.0};          ///< Duration of the move, s; infinite for a sine and a record
   double angular_frequency_{0.0};  ///< Angular frequency of a sine, rad/s; 0 for another shape
   std::shared_ptr<const ReferenceRecord> record_{};
 };

@@ -22,7 +22,7 @@ class SampleClock {
         missed_stream_{randomness.missed_samples, randomness.stream},
         trial_(randomness.trial) {}
 
-  /// δ_k, s.
+  /// Time δ_k by which sample k is late, s.
   double lateness(std::int64_t k) const { return jitter_ > 0.0 ? jitter_ * uniform(jitter_stream_, k) : 0.0; }
   /// Whether the controller runs at sample k.
   bool runs(std::int64_t k) const { return missed_ == 0.0 || uniform(missed_stream_, k) >= missed_; }

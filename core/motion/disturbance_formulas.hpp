@@ -4,7 +4,8 @@
 
 #include "core/numerics/series_recurrences.hpp"
 
-/// The series of disturbances, for double and for the vectors of the batch engine.
+/// Formulas of the Taylor series of disturbances, as templates for double and for the vectors of the batch
+/// engine.
 namespace zerocount::motion {
 
 /// Taylor series of s = sin(q·θ + φ) and its cosine c along a motion,
@@ -17,7 +18,8 @@ struct WaveSeriesOf {
   Series sine;
   Series cosine;
 
-  /// Computes the coefficients k ≥ 1, given the coefficients of ω up to k − 1. @param per_angle q.
+  /// Computes the coefficients k ≥ 1 of sine and cosine, given the coefficients of the velocity ω up to k −
+  /// 1. @param per_angle q.
   template <class Number>
   ZEROCOUNT_ALWAYS_INLINE void expand(const Number& per_angle, const Number* omega, std::size_t k) {
     Number of_sine(0.0);
@@ -32,7 +34,8 @@ struct WaveSeriesOf {
   }
 };
 
-/// Adds A·sin(rate·t + φ) to a series that ends with `order`. @param sine, cosine A·sin φ and A·cos φ.
+/// Adds the Taylor coefficients of the vibration A·sin(rate·t + φ) about t = 0 to a series that ends with the
+/// power `order`. @param sine, cosine A·sin φ and A·cos φ.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE void add_line(const Number& rate, Number sine, Number cosine, std::size_t order,
                                       Series& series) {

@@ -13,7 +13,7 @@
 
 namespace zerocount::motion {
 
-/// Tolerances of the motion integrator.
+/// Tolerances of the integrator that computes the plant's motion by Taylor steps.
 struct MotionTolerance {
   /// Truncation error allowed per Taylor step, and the excess of hardening that starts creep, rad. A trial
   /// uses 1e-11 of a fine count.
@@ -23,14 +23,15 @@ struct MotionTolerance {
   double rest{4e-14};
 };
 
-/// The first event within a step: a kink of the motion, which ends the step. `Event` is an enumeration of a
-/// law's events with a value `none`.
+/// The first event within an integration step: a kink of the motion, at which the step ends. `Event` is an
+/// enumeration of the events of a friction law, with a value `none`.
 template <class Event>
 struct NextEvent {
   double time;  ///< Time of the event from the start of the step, s; without an event, the end of the step
   Event event{Event::none};
 
-  /// Replaces the present event by the one at `candidate` (s), if any, unless that is later.
+  /// Replaces the present event by the event `what` at the time `candidate` (s), unless `candidate` is empty
+  /// or later.
   void offer(std::optional<double> candidate, Event what) {
     if (!candidate || *candidate > time) return;
     time = *candidate;
@@ -65,9 +66,9 @@ concept SmoothMotion = requires(Motion motion, const Motion now, typename Motion
   motion.go_to(series, next);
 };
 
-/// The Taylor series of a motion from its present state.
-/// @param inertia J, kg m². @param torque torque on the rotor. @param load_series series of the load of
-/// `torque`; unused without a load.
+/// Computes the Taylor series of a motion from its present state.
+/// @param inertia J, kg m². @param torque torque on the rotor. @param load_series receives the series of the
+/// load of `torque`; unused without a load.
 template <SmoothMotion Motion>
 typename Motion::Expansion motion_series(const Motion& motion, double inertia, const TorqueCourse& torque,
                                          LoadSeries& load_series) {
@@ -119,10 +120,10 @@ typename Motion::Expansion motion_series(const Motion& motion, double inertia, c
 double step_within(const numerics::Series& position, const numerics::Series& velocity,
                    const numerics::Series& exponent, double tolerance, double longest);
 
-/// Advances the motion, and the load of `torque`, to the end of a Taylor step, to the motion's first event or
-/// to an edge of the gap, whichever comes first.
-/// @param tolerance tolerance of the position, rad. @param duration longest step, s. @returns the time used
-/// and the event.
+/// Advances the motion, and the load of `torque`, along their Taylor series: to the end of the longest
+/// accurate step, to the motion's first event or to an edge of the coupling's gap, whichever comes first.
+/// @param tolerance truncation error of the position allowed, rad. @param duration longest step, s. @returns
+/// the time used and the event.
 template <SmoothMotion Motion>
 NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& series,
                                              const LoadSeries& load_series, const TorqueCourse& torque,
@@ -158,7 +159,9 @@ NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& s
   return next;
 }
 
-/// Computes the series from the present state and advances the motion along them by step_along().
+/// Computes the Taylor series of the motion from its present state, and advances the motion along them by
+/// step_along(). @param inertia J, kg m². @param tolerance truncation error of the position allowed, rad.
+/// @param duration longest step, s.
 template <SmoothMotion Motion>
 NextEvent<typename Motion::Event> taylor_step(Motion& motion, double inertia, const TorqueCourse& torque,
                                               double tolerance, double duration) {
@@ -167,7 +170,8 @@ NextEvent<typename Motion::Event> taylor_step(Motion& motion, double inertia, co
   return step_along(series, load_series, torque, motion, tolerance, duration);
 }
 
-/// First time in (0, end] at which `series` changes sign. A start at exactly zero is not a change of sign.
+/// First time in (0, end] at which the power series `series` changes its sign; empty if it does not. A start
+/// at exactly zero is not a change of sign.
 std::optional<double> next_sign_change(std::span<const double> series, double end);
 
 }  // namespace zerocount::motion

@@ -20,7 +20,7 @@ double torque_on_rotor(const TorqueCourse& course, double omega) {
 
 namespace {
 
-/// A rotor that does not move, to find how the torque on it changes.
+/// A rotor that is held still, for the Taylor integrator, to find how the torque on it changes.
 struct HeldRotor {
   struct Expansion {
     numerics::Series position{};

@@ -13,17 +13,19 @@
 namespace zerocount::numerics {
 namespace {
 
-/// Largest |x| for which no intermediate value overflows or is subnormal.
+/// Largest |x| for which the table-driven exponential has no intermediate value that overflows or is
+/// subnormal.
 constexpr double max_table_argument = 700.0;
 
-/// exp(x) = scale·(1 + excess), with scale = 2^(k/128) from the table and |excess| < 0.003 (Tang, ACM Trans.
-/// Math. Softw. 15 (1989) 144). The polynomial is the series of exp(r) − 1, |r| ≤ ln 2/256, to r⁵.
+/// Result of the table-driven exponential function, exp(x) = scale·(1 + excess), with scale = 2^(k/128) from
+/// the table and |excess| < 0.003 (Tang, ACM Trans. Math. Softw. 15 (1989) 144). The polynomial is the series
+/// of exp(r) − 1, |r| ≤ ln 2/256, to r⁵.
 struct ScaledExponential {
   double scale;
   double excess;
 };
 
-/// @param x_error correction to x, far smaller than x.
+/// Computes exp(x + x_error). @param x_error correction to x, far smaller than x.
 ScaledExponential scaled_exponential(double x, double x_error = 0.0) noexcept {
   constexpr double to_whole = 0x1.8p52;  // a number so large that its last bit is 1
   const double shifted = x * steps_per_unit + to_whole;
@@ -38,26 +40,26 @@ ScaledExponential scaled_exponential(double x, double x_error = 0.0) noexcept {
           power.tail + r + rest};
 }
 
-/// The series to x⁷, for |x| < 0.02.
+/// The Taylor series of exp(x) − 1 to x⁷, for |x| < 0.02.
 double small_expm1(double x) noexcept {
   const double x2 = x * x;
   const double high = (1.0 / 24.0 + x * (1.0 / 120.0)) + x2 * (1.0 / 720.0 + x * (1.0 / 5040.0));
   return x + x2 * ((1.0 / 2.0 + x * (1.0 / 6.0)) + x2 * high);
 }
 
-/// A number as the sum of two doubles; `high` is the rounded number.
+/// A number as the unevaluated sum of two doubles; `high` is the number rounded to a double.
 struct Sum {
   double high;
   double low;
 };
 
-/// The sum of two numbers, exact if |a| ≥ |b| or a = 0 (Dekker, Numer. Math. 18 (1971) 224).
+/// The sum a + b as two doubles, exact if |a| ≥ |b| or a = 0 (Dekker, Numer. Math. 18 (1971) 224).
 Sum exact_sum(double a, double b) noexcept {
   const double high = a + b;
   return {high, (a - high) + b};
 }
 
-/// A number split into its first 26 bits and the other 27.
+/// Splits a double into its first 26 bits and the other 27 as the sum of two doubles.
 Sum halves(double x) noexcept {
   constexpr std::uint64_t upper = ~((std::uint64_t{1} << 27) - 1);
   const double high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & upper);
@@ -68,8 +70,8 @@ bool is_normal_and_positive(double x) noexcept {
   return x >= std::numeric_limits<double>::min() && x <= std::numeric_limits<double>::max();
 }
 
-/// ln x of a normal x > 0, to 2⁻⁶⁵: x = 2ᵏ·c·(1 + r) with ln c from the table and |r| < 2⁻⁷·⁹ (Tang, ACM
-/// Trans. Math. Softw. 16 (1990) 378).
+/// Natural logarithm ln x of a normal number x > 0, to 2⁻⁶⁵: x = 2ᵏ·c·(1 + r) with ln c from the table and
+/// |r| < 2⁻⁷·⁹ (Tang, ACM Trans. Math. Softw. 16 (1990) 378).
 Sum logarithm(double x) noexcept {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
   const std::uint64_t after_start = bits - logarithm_start;
@@ -96,8 +98,9 @@ Sum logarithm(double x) noexcept {
   return exact_sum(sum.high, low);
 }
 
-/// x − n·π/2, |x| < 10⁵, as a sum: π/2 in three parts, of which the first two have 33 bits, so that their
-/// multiples are exact (Cody and Waite, Software Manual for the Elementary Functions, 1980).
+/// Argument x reduced by multiples of π/2: x − n·π/2, |x| < 10⁵, as a sum of two doubles. π/2 is used in
+/// three parts, of which the first two have 33 bits, so that their multiples are exact (Cody and Waite,
+/// Software Manual for the Elementary Functions, 1980).
 Sum reduced(double x, double n) noexcept {
   const double first = x - n * 0x1.921fb54400000p+0;
   const double second = n * 0x1.0b4611a600000p-34;
@@ -108,7 +111,8 @@ Sum reduced(double x, double n) noexcept {
   return exact_sum(high, low);
 }
 
-/// The series of sin(x + error) to x¹⁷, |x| ≤ π/4.
+/// The Taylor series of the sine to the power 17 for an argument given as a sum of two doubles, of absolute
+/// value up to π/4.
 double small_sine(const Sum& x) noexcept {
   const double x2 = x.high * x.high;
   const double x4 = x2 * x2;
@@ -119,7 +123,8 @@ double small_sine(const Sum& x) noexcept {
   return x.high + (x.high * x2 * series + x.low * (1.0 - 0.5 * x2));
 }
 
-/// The series of cos(x + error) to x¹⁸, |x| ≤ π/4.
+/// The Taylor series of the cosine to the power 18 for an argument given as a sum of two doubles, of absolute
+/// value up to π/4.
 double small_cosine(const Sum& x) noexcept {
   const double x2 = x.high * x.high;
   const double x4 = x2 * x2;

@@ -1,18 +1,20 @@
 #pragma once
 
-/// Elementary functions with the same bits on every processor. glibc chooses its exp, log, sin … by the
-/// processor (with or without fused operations, for one), and the last bit of a result with it. What draws
-/// parameters or computes a trial therefore calls these in place of those of <cmath>.
+/// Elementary functions whose results have the same bits on every processor. glibc chooses its exp, log, sin
+/// … by the processor (with or without fused operations, for one), and the last bit of a result may differ.
+/// Code that draws parameters or computes a trial therefore calls these functions in place of those of
+/// <cmath>.
 ///
-/// Without fused operations, within 1 ulp where neither argument nor result is subnormal. exp, expm1, log and
-/// pow, which a trial calls most, are table-driven: 2 to 8 times as fast as SLEEF's. sine_and_cosine is ours,
-/// too; the others are SLEEF's. log1p is infinite above 1e307.
+/// They use no fused operations, and are accurate within 1 ulp where neither argument nor result is
+/// subnormal. exp, expm1, log and pow, which a trial calls most, are table-driven: 2 to 8 times as fast as
+/// SLEEF's. sine_and_cosine is our own, too; the others are SLEEF's. log1p is infinite above 1e307.
 namespace zerocount::numerics {
 
 double exp(double x) noexcept;
 double expm1(double x) noexcept;
 double log(double x) noexcept;
-/// SLEEF's functions. What differs between trials is drawn with them, so that a manifest keeps its draws.
+/// Exponential function of the SLEEF library. Quantities that differ between trials are drawn with SLEEF's
+/// functions, so that a manifest (study input file) keeps its draws.
 double exp_of_draws(double x) noexcept;
 double expm1_of_draws(double x) noexcept;
 double log_of_draws(double x) noexcept;

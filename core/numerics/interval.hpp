@@ -15,10 +15,11 @@ struct Interval {
 };
 
 Interval all_numbers();
-Interval above(double low);                   ///< (low, ∞)
-Interval at_least(double low);                ///< [low, ∞)
-Interval closed(double low, double high);     ///< [low, high]
-Interval half_open(double low, double high);  ///< [low, high)
+Interval above(double low);                   ///< The open interval (low, ∞): numbers greater than `low`
+Interval at_least(double low);                ///< The interval [low, ∞): `low` and greater numbers
+Interval closed(double low, double high);     ///< The closed interval [low, high], which includes both ends
+Interval half_open(double low, double high);  ///< The half-open interval [low, high), which includes `low`
+                                              ///< but not `high`
 
 bool contains(const Interval& interval, double value);
 

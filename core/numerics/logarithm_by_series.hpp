@@ -8,8 +8,8 @@ namespace zerocount::numerics {
 inline constexpr double ln2_high = 0x1.62e42fefa3800p-1;
 inline constexpr double ln2_low = 0x1.ef35793c76730p-45;
 
-/// ln a of a normal a > 0, to some 2e-16 relative: a = m·2ᵉ with m from √½ to √2, and with s = (m − 1)/(m +
-/// 1) ln m = 2·(s + s³/3 + s⁵/5 + …).
+/// Natural logarithm ln a of a normal number a > 0, to some 2e-16 relative: a = m·2ᵉ with m from √½ to √2,
+/// and with s = (m − 1)/(m + 1) ln m = 2·(s + s³/3 + s⁵/5 + …).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number logarithm_by_series(const Number& a) {
   Number m, e;

@@ -5,7 +5,7 @@
 
 namespace zerocount::numerics {
 
-/// c₀ + c₁·x + … + c₇·x⁷.
+/// Value of the polynomial c₀ + c₁·x + … + c₇·x⁷.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number polynomial_of_order_7(const double (&c)[8], const Number& x) {
   Number sum(c[7]);
@@ -47,7 +47,8 @@ ZEROCOUNT_ALWAYS_INLINE Number rational(const RationalOfOrder7& of, const Number
   return polynomial_of_order_7(of.above, x) / polynomial_of_order_7(of.below, x);
 }
 
-/// Φ⁻¹(p) for p in (0, 1), within 1e-15 relative. Where 1 − p is exact, its quantile is exactly the negative.
+/// Quantile Φ⁻¹(p) of the standard normal distribution for p in (0, 1), within 1e-15 relative. Where 1 − p is
+/// exact, its quantile is exactly the negative.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number standard_normal_quantile(const Number& p) {
   const Number q = p - Number(0.5);

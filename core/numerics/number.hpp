@@ -11,14 +11,14 @@ namespace zerocount {
 
 #define ZEROCOUNT_ALWAYS_INLINE __attribute__((always_inline)) inline
 
-/// Whether the mask is set in any lane.
+/// Whether the mask is set; for a vector's mask, whether it is set in any lane.
 ZEROCOUNT_ALWAYS_INLINE bool any(bool mask) {
   return mask;
 }
 ZEROCOUNT_ALWAYS_INLINE bool negated(bool mask) {
   return !mask;
 }
-/// a where `mask`, else b.
+/// Returns a if `mask` is set, otherwise b.
 ZEROCOUNT_ALWAYS_INLINE double select(bool mask, double a, double b) {
   return mask ? a : b;
 }
@@ -34,22 +34,23 @@ ZEROCOUNT_ALWAYS_INLINE double max(double a, double b) {
 ZEROCOUNT_ALWAYS_INLINE double sqrt(double a) {
   return __builtin_sqrt(a);
 }
-/// a/b of a b that stays the same in a loop: there a vector has the reciprocal.
+/// Quotient a/b for a divisor b that stays the same in a loop; for vectors it is a·(1/b), so that the
+/// reciprocal is computed once.
 ZEROCOUNT_ALWAYS_INLINE double by_fixed(double a, double b) {
   return a / b;
 }
-/// −1, 0 or 1.
+/// Sign of a: −1, 0 or 1.
 ZEROCOUNT_ALWAYS_INLINE double sign(double a) {
   return a > 0.0 ? 1.0 : (a < 0.0 ? -1.0 : 0.0);
 }
-/// The nearest whole number, half to even in the default rounding mode.
+/// Rounds a to the nearest whole number, half to even in the default rounding mode.
 ZEROCOUNT_ALWAYS_INLINE double rint(double a) {
   return __builtin_nearbyint(a);
 }
 ZEROCOUNT_ALWAYS_INLINE double floor(double a) {
   return __builtin_floor(a);
 }
-/// The factors of a = m·2ᵉ, 1 ≤ m < 2, for a normal a > 0.
+/// Splits a normal number a > 0 into the factors of a = m·2ᵉ with 1 ≤ m < 2.
 ZEROCOUNT_ALWAYS_INLINE void split(double a, double& m, double& e) {
   constexpr int stored_bits = 52;
   constexpr long long of_one = 1023LL << stored_bits;  // bits of 1.0

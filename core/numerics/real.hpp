@@ -11,8 +11,8 @@
 
 namespace zerocount::numerics {
 
-/// A double for Boost.Math. Boost calls exp(x), log(x) … unqualified, so that for a type of our own it finds
-/// the functions below, with the same bits on every processor
+/// A floating-point type around double for Boost.Math. Boost calls exp(x), log(x) … unqualified, so that for
+/// this type it finds the project's functions, whose results have the same bits on every processor
 /// (https://www.boost.org/doc/libs/1_74_0/libs/math/doc/html/math_toolkit/real_concepts.html).
 class Real : boost::ordered_field_operators<Real> {
  public:

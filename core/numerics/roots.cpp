@@ -23,8 +23,9 @@ struct BernsteinPiece {
   double high{0.0};
 };
 
-/// b_i = Σ_{j≤i} [C(i,j)/C(n,j)]·c_j·endʲ. In place: with a_j = c_j·endʲ/C(n,j), n rounds of
-/// adding each entry to its successor give b_i = Σ_j C(i,j)·a_j.
+/// Bernstein coefficients over [0, end] of the polynomial with the power coefficients c: b_i = Σ_{j≤i}
+/// [C(i,j)/C(n,j)]·c_j·endʲ. Computed in place: with a_j = c_j·endʲ/C(n,j), n rounds of adding each entry to
+/// its successor give b_i = Σ_j C(i,j)·a_j.
 BernsteinPiece bernstein_over(std::span<const double> c, double end) {
   BernsteinPiece piece{{}, c.size(), 0.0, end};
   const std::size_t n = c.size() - 1;
@@ -40,7 +41,7 @@ BernsteinPiece bernstein_over(std::span<const double> c, double end) {
   return piece;
 }
 
-/// De Casteljau's subdivision at the middle.
+/// The two halves of a polynomial piece in Bernstein form, by de Casteljau's subdivision at the middle.
 std::array<BernsteinPiece, 2> halves(const BernsteinPiece& piece) {
   const double middle = 0.5 * (piece.low + piece.high);
   BernsteinPiece left{{}, piece.count, piece.low, middle};

@@ -47,18 +47,18 @@ inline double geometric_mean(double a, double b) {
   return std::sqrt(a * b);
 }
 
-/// Two numbers, in either order, between which a condition changes.
+/// Two numbers, in either order, between which a condition changes from true to false.
 struct Bracket {
   double holds;  ///< End at which the condition holds
   double fails;  ///< End at which the condition does not hold
 };
 
-/// Bisection:
+/// Bisection between a number at which `condition` is true and one at which it is false:
 ///
-///     until narrow(bracket), or its middle is one of its ends:
-///       the middle replaces that end whose answer of `condition` it has
+///     until narrow(bracket), or its middle equals one of its ends:
+///       the middle replaces the end at which `condition` has the same value
 ///
-/// The ends are not examined.
+/// The condition is not evaluated at the given ends. @returns the final bracket.
 template <class Condition, class Narrow, class Mean = double(double, double)>
 Bracket bisect(Bracket bracket, const Condition& condition, Narrow narrow,
                const Mean& mean = arithmetic_mean) {
@@ -70,12 +70,12 @@ Bracket bisect(Bracket bracket, const Condition& condition, Narrow narrow,
   return bracket;
 }
 
-/// Criterion for bisect(): the bracket is narrow after `count` halvings.
+/// Criterion for bisect(): the bracket is narrow enough after `count` halvings.
 inline auto after_halvings(int count) {
   return [left = count](const Bracket&) mutable { return left-- == 0; };
 }
 
-/// Criterion for bisect(): the bracket is narrow if its ends differ by `width` or less.
+/// Criterion for bisect(): the bracket is narrow enough if its ends differ by `width` or less.
 inline auto within(double width) {
   return [width](const Bracket& bracket) { return std::abs(bracket.holds - bracket.fails) <= width; };
 }

@@ -4,11 +4,12 @@
 
 #include "core/numerics/number.hpp"
 
-/// Recurrences for the coefficients of functions of power series, for double and for the vectors of the batch
-/// engine.
+/// Recurrences for the Taylor coefficients of functions of power series, as templates for double and for the
+/// vectors of the batch engine.
 namespace zerocount::numerics {
 
-/// 1/k for the orders of a series, k ≥ 1, because divisions would take much of the time of a step.
+/// Table of reciprocals 1/k of the orders of a series, k ≥ 1, because divisions would take much of the time
+/// of a step.
 inline constexpr struct Reciprocals {
   double of[24]{};
   constexpr Reciprocals() {
@@ -17,7 +18,8 @@ inline constexpr struct Reciprocals {
   constexpr double operator[](std::size_t k) const { return of[k]; }
 } reciprocal;
 
-/// The orders of a series as numbers: loading one is faster than converting an integer.
+/// Table of the orders k of a series as floating-point numbers: loading one is faster than converting an
+/// integer.
 inline constexpr struct Whole {
   double of[24]{};
   constexpr Whole() {
@@ -25,8 +27,8 @@ inline constexpr struct Whole {
   }
 } whole;
 
-/// Coefficient k ≥ 1 of exp(a): from e′ = a′·e, given the coefficients of the derivative a′[0…k−1] and
-/// e[0…k−1].
+/// Coefficient k ≥ 1 of the power series of exp(a), by the recurrence of e′ = a′·e. @param derivative
+/// coefficients of a′ up to k − 1. @param e coefficients of exp(a) up to k − 1.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number exponential_coefficient(const Number* derivative, const Number* e,
                                                        std::size_t k) {
@@ -35,7 +37,7 @@ ZEROCOUNT_ALWAYS_INLINE Number exponential_coefficient(const Number* derivative,
   return sum * Number(reciprocal.of[k]);
 }
 
-/// Coefficient k of a·b.
+/// Coefficient k of the product of two power series, a·b.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number product_coefficient(const Number* a, const Number* b, std::size_t k) {
   Number sum = a[0] * b[k];
@@ -43,7 +45,8 @@ ZEROCOUNT_ALWAYS_INLINE Number product_coefficient(const Number* a, const Number
   return sum;
 }
 
-/// Coefficient k of a/b, b[0] ≠ 0: from q·b = a, given the coefficient a_k, b[0…k] and q[0…k−1].
+/// Coefficient k of the quotient q = a/b of two power series, b[0] ≠ 0, by the recurrence of q·b = a. @param
+/// a_k coefficient k of a. @param b coefficients up to k. @param q coefficients up to k − 1.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number quotient_coefficient(const Number& a_k, const Number* b, const Number* q,
                                                     std::size_t k) {
@@ -52,7 +55,8 @@ ZEROCOUNT_ALWAYS_INLINE Number quotient_coefficient(const Number& a_k, const Num
   return rest / b[0];
 }
 
-/// Coefficient k of a². Each product a[j]·a[k−j] counts twice, except the middle one.
+/// Coefficient k of the square a² of a power series. Each product a[j]·a[k−j] counts twice, except the middle
+/// one.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number square_coefficient(const Number* a, std::size_t k) {
   Number sum(0.0);
@@ -60,8 +64,9 @@ ZEROCOUNT_ALWAYS_INLINE Number square_coefficient(const Number* a, std::size_t k
   return Number(2.0) * sum + (k % 2 == 0 ? a[k / 2] * a[k / 2] : Number(0.0));
 }
 
-/// Coefficient k ≥ 1 of aⁿ, a[0] ≠ 0, any real n: from a·p′ = n·a′·p (Knuth, The Art of Computer Programming,
-/// vol. 2, section 4.7), given a[0…k] and p[0…k−1]. @param per_start 1/a[0]
+/// Coefficient k ≥ 1 of the power p = aⁿ of a power series, a[0] ≠ 0, any real n, by the recurrence of a·p′ =
+/// n·a′·p (Knuth, The Art of Computer Programming, vol. 2, section 4.7), given a[0…k] and p[0…k−1]. @param
+/// per_start 1/a[0]
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number power_coefficient(const Number* a, const Number* p, const Number& n,
                                                  const Number& per_start, std::size_t k) {

@@ -4,7 +4,7 @@
 
 namespace zerocount::numerics {
 
-/// −1, 0 or 1.
+/// Sign of a number: −1, 0 or 1.
 template <class Number>
 requires std::floating_point<Number> || std::signed_integral<Number>
 constexpr int sign_of(Number value) {

@@ -12,13 +12,14 @@
 
 namespace zerocount::plant {
 
-/// Largest number of steps in one torque step of any length. With more, the motion counts as lost.
+/// Largest number of integration steps in one call of advance(), whatever its duration. If more are
+/// needed, the motion counts as lost.
 inline constexpr int max_steps = 200000;
-/// Largest number of steps in one sample of a trial. A ringing trial of the paper's machine needs about
-/// three; a trial with ten thousand in each sample would run for hours.
+/// Largest number of integration steps in one sample of a trial. A ringing trial of the paper's machine needs
+/// about three; a trial with ten thousand in each sample would run for hours.
 inline constexpr int max_steps_of_sample = 10000;
 
-/// A rotor with a friction law under a motor's torque.
+/// The plant: a rotor with a friction law, and a second mass if there is one, under a motor's torque.
 template <friction::FrictionLaw Law>
 class PlantWith : public Law {
  public:
@@ -28,12 +29,13 @@ class PlantWith : public Law {
     if (motion::has_load(plant)) load_ = motion::Load{plant.load, 0.0, start.velocity};
   }
 
-  /// Adds a disturbance to the torque from now on, t = 0 of its vibration.
+  /// Adds a disturbance torque on the rotor from now on; its vibrations start at t = 0 now.
   void disturb(const motion::Disturbance& disturbance) {
     disturbance_ = disturbance;
     time_ = 0.0;
   }
-  /// Adds to the load, if any, what acts on it from now on, t = 0 of its vibration.
+  /// Adds disturbance, kinematic error and friction to the second mass, if there is one, from now on; its
+  /// vibrations start at t = 0 now.
   void start_load(const motion::LoadSide& side, const friction::LoadFrictionParameters& friction = {}) {
     if (!load_) return;
     load_friction_ = friction::friction_of_load(friction, load_->parameters.inertia, load_->omega);
@@ -41,10 +43,12 @@ class PlantWith : public Law {
     load_->disturbance = side.disturbance;
     load_->twist = side.twist;
   }
-  /// Sets the time t (s) of the disturbances, which advance() moves on only to rounding.
+  /// Sets the time t (s) of the disturbances exactly; advance() adds durations and so accumulates rounding
+  /// errors.
   void set_time(double time) { time_ = time; }
 
-  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `step_limit` steps.
+  /// Moves the plant under the torque for `duration` (s). The motion is lost if that takes more than
+  /// `step_limit` integration steps.
   void advance(const motion::TorqueCourse& torque, double duration, int step_limit = max_steps) {
     motion::TorqueCourse ahead = torque;
     ahead.now += disturbance_.torque;
@@ -78,16 +82,16 @@ class PlantWith : public Law {
     time_ += duration;
   }
 
-  /// False once the motion is lost (non-finite, or too many steps); it stays false.
+  /// False once the motion is lost, because it is not finite or took too many steps; it stays false.
   bool finite() const { return finite_; }
-  /// Integration steps since the start.
+  /// Number of integration steps since the start.
   std::int64_t steps() const { return steps_; }
-  /// The second mass; empty without one.
+  /// The second mass with its state; empty without one.
   const std::optional<motion::Load>& load() const { return load_; }
   std::optional<motion::Load>& load() { return load_; }
 
  private:
-  /// Advances by one step.
+  /// Advances the plant by one integration step.
   /// @returns the time used, at most `duration` (s).
   double step_on(const motion::TorqueCourse& torque, double duration) {
     if constexpr (motion::SmoothMotion<Law>) {
@@ -107,18 +111,19 @@ class PlantWith : public Law {
   double time_{0.0};  // of the disturbances, s
 };
 
-/// State of the plant at an instant.
+/// State of the plant at an instant, as it is recorded.
 struct PlantReading {
-  double theta{0.0};             ///< θ, rad
-  double omega{0.0};             ///< ω, rad/s
-  friction::CreepState creep{};  ///< Creep in the present contact, or in the last one while the hook slides
-  std::int64_t depth{0};         ///< Number of reversal points on the stack
+  double theta{0.0};  ///< Rotor angle θ, rad
+  double omega{0.0};  ///< Rotor velocity ω, rad/s
+  friction::CreepState
+      creep{};  ///< Creep in the present friction contact or, while it slides, in the last one that stuck
+  std::int64_t depth{0};  ///< Number of reversal points on the spring's stack
   bool sliding{false};
   double load_theta{0.0};  ///< Angle θL of the load, rad; θ without a load
   double load_omega{0.0};  ///< Velocity ωL of the load, rad/s; ω without a load
 };
 
-/// The plant of a trial, with the law that its friction.model selects.
+/// The plant of a trial, with the friction law that the manifest's key friction.model selects at run time.
 template <class Laws>
 class PlantOf {
  public:
@@ -127,20 +132,22 @@ class PlantOf {
       : plant_(makers.at(static_cast<std::size_t>(friction.model))(plant, friction, start, tolerance)),
         breakaway_(Laws::traits.at(static_cast<std::size_t>(friction.model)).breakaway) {}
 
-  /// Applies the torque for `duration` (s). The motion is lost if that takes more than `step_limit` steps.
+  /// Moves the plant under the torque for `duration` (s). The motion is lost if that takes more than
+  /// `step_limit` integration steps.
   void advance(const motion::TorqueCourse& torque, double duration, int step_limit = max_steps) {
     std::visit([&](auto& plant) { plant.advance(torque, duration, step_limit); }, plant_);
   }
 
-  /// Adds a disturbance to the torque from now on, t = 0 of its vibration.
+  /// Adds a disturbance torque on the rotor from now on; its vibrations start at t = 0 now.
   void disturb(const motion::Disturbance& disturbance) {
     std::visit([&](auto& plant) { plant.disturb(disturbance); }, plant_);
   }
-  /// Adds to the load, if any, what acts on it from now on, t = 0 of its vibration.
+  /// Adds disturbance, kinematic error and friction to the second mass, if there is one, from now on; its
+  /// vibrations start at t = 0 now.
   void start_load(const motion::LoadSide& side, const friction::LoadFrictionParameters& friction = {}) {
     std::visit([&](auto& plant) { plant.start_load(side, friction); }, plant_);
   }
-  /// Sets the time t (s) of the disturbances.
+  /// Sets the time t (s) of the disturbances' vibrations.
   void set_time(double time) {
     std::visit([&](auto& plant) { plant.set_time(time); }, plant_);
   }
@@ -158,32 +165,32 @@ class PlantOf {
         },
         plant_);
   }
-  /// rad
+  /// Rotor angle θ, rad.
   double theta() const {
     return std::visit([](const auto& plant) { return plant.theta(); }, plant_);
   }
-  /// rad/s
+  /// Rotor velocity ω, rad/s.
   double omega() const {
     return std::visit([](const auto& plant) { return plant.omega(); }, plant_);
   }
   bool sliding() const {
     return std::visit([](const auto& plant) { return plant.sliding(); }, plant_);
   }
-  /// False once the motion is lost; it stays false.
+  /// False once the motion is lost, because it is not finite or took too many steps; it stays false.
   bool finite() const {
     return std::visit([](const auto& plant) { return plant.finite(); }, plant_);
   }
-  /// Integration steps since the start.
+  /// Number of integration steps since the start.
   std::int64_t steps() const {
     return std::visit([](const auto& plant) { return plant.steps(); }, plant_);
   }
-  /// Manner in which the law begins to slide.
+  /// Manner in which the plant's friction law passes from rest to sliding.
   friction::Breakaway breakaway() const { return breakaway_; }
-  /// Number of breakaways since the start.
+  /// Number of times since the start that the friction contact has broken away into a slide.
   std::int64_t breakaways() const {
     return std::visit([](const auto& plant) { return plant.breakaways(); }, plant_);
   }
-  /// Largest depth of the stack of reversal points since the last forget_deepest().
+  /// Largest number of reversal points on the spring's stack since the last forget_deepest().
   std::int64_t deepest() const {
     return std::visit([](const auto& plant) { return plant.deepest(); }, plant_);
   }

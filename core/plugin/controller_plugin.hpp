@@ -10,17 +10,17 @@
 
 namespace zerocount::plugin {
 
-/// A parameter of a user's controller.
+/// Description of one parameter of a user's controller plugin.
 struct PluginParameter {
   std::string name;
   std::string unit;
   std::string meaning;
   double default_value{0.0};
-  double lowest{0.0};   ///< Lowest value allowed; may be infinite
-  double highest{0.0};  ///< Highest value allowed; may be infinite
+  double lowest{0.0};   ///< Lowest value of the parameter allowed; may be infinite
+  double highest{0.0};  ///< Highest value of the parameter allowed; may be infinite
 };
 
-/// Description of a user's controller. A study has it even if the library is not loaded.
+/// Description of a user's controller plugin. A study has it even if the plugin's library is not loaded.
 struct PluginDescription {
   std::string name;
   std::string version;
@@ -28,13 +28,15 @@ struct PluginDescription {
   std::vector<PluginParameter> parameters;
 };
 
-/// The torque (N m) that a control law wants at a sample; not finite if it cannot go on.
+/// Function that computes the torque (N m) which a control law wants at a sample; not finite if it cannot go
+/// on.
 using StepFunction = std::function<double(const zerocount_sample&)>;
 
-/// A user's controller.
+/// A user's controller: a loaded library, or functions of this process.
 struct ControllerPlugin {
   PluginDescription description;
-  /// Null if the library is not loaded: then no trial can be run, unless there is `start`.
+  /// Functions of the loaded library. Null if no library is loaded: then no trial can be run, unless there is
+  /// `start`.
   const zerocount_controller* functions{nullptr};
   /// A control law of this process in place of a library. It is called before the first sample of each trial,
   /// and the function that it returns is called at each sample. Either may throw, which ends the trial by
@@ -42,17 +44,18 @@ struct ControllerPlugin {
   std::function<StepFunction(const zerocount_setup&)> start{};
 };
 
-/// Why a library's description cannot be used.
+/// Reason why the description of a plugin's library cannot be used.
 struct PluginFault {
   std::string what;
   std::string expected;
 };
 
 inline constexpr std::size_t max_plugin_parameters = 128;
-/// Largest size of a plugin's state, bytes
+/// Largest memory that a plugin may request for its state in one trial, bytes
 inline constexpr std::size_t max_plugin_state = std::size_t{1} << 20;
 
-/// Checks the description that zerocount_controller_entry() returned. @param sha256 checksum of the library.
+/// Checks the description that the library's function zerocount_controller_entry() returned. @param sha256
+/// SHA-256 checksum of the library file. @returns the plugin, or the reason why it cannot be used.
 std::variant<ControllerPlugin, PluginFault> checked_plugin(const zerocount_controller* entry,
                                                            std::string sha256);
 

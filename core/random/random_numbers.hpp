@@ -16,23 +16,25 @@ namespace zerocount::random {
 /// independent. Result. The first two output words, w = word 0 + 2³²·word 1.
 using RandomKey = std::array<std::uint32_t, 2>;
 
-/// Purpose of a random number: the third counter word.
+/// Purpose for which a random number is drawn: the third word of the generator's counter.
 enum class Draw : std::uint32_t {
-  trial = 0,        ///< Value of a trial or machine; with the Latin hypercube, the place inside its stratum
-  sobol_shift = 1,  ///< Digital shift of a Sobol dimension; the index is 0
+  trial = 0,        ///< Value of a parameter for a trial or machine; with the Latin hypercube, the position
+                    ///< inside its stratum
+  sobol_shift = 1,  ///< Random digital shift that randomises a dimension of a Sobol sequence; the index is 0
   profile_cosine = 2,  ///< Cosine coefficient of a profile; the index is the harmonic + 2³²·machine
   profile_sine = 3,    ///< Sine coefficient of a profile; the index is the harmonic + 2³²·machine
   latin_round =
       16  ///< + r: round r of the Latin hypercube's permutation; the index is the half that is hashed
 };
 
-/// Position of a study's point in the random numbers of one parameter.
+/// Selects the random numbers of one parameter at one design point: key, and stream word of the counter.
 struct RandomStream {
   RandomKey key{};
   std::uint32_t stream{0};
 };
 
-/// 64 random bits w.
+/// 64 random bits for a key, stream, index and draw (see RandomKey). @param index usually the index of the
+/// trial. @param draw a value of Draw.
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, std::uint32_t draw);
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, Draw draw);
 
@@ -52,8 +54,9 @@ double open_uniform(std::uint64_t bits);
 /// complementary bits give exactly the negative.
 double standard_normal(std::uint64_t bits);
 
-/// A standard normal number for the noise in a running trial, by a formula that the lanes evaluate as well.
-/// It is within a relative 1e-15 of standard_normal(), which draws the parameters of manifests.
+/// A standard normal number from random bits, for the noise in a running trial, by a formula that the
+/// vectorised batch engine evaluates as well. It is within a relative 1e-15 of standard_normal(), which draws
+/// the parameters of manifests (study input files).
 double standard_normal_noise(std::uint64_t bits);
 
 /// A binomial number: how many of `n` independent events of probability `probability` occur. By inversion:
@@ -61,12 +64,12 @@ double standard_normal_noise(std::uint64_t bits);
 /// @param n not negative. @param probability p, in [0, 1].
 std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t bits);
 
-/// The random numbers of a stream one after the other, for searches that need no counter of their own.
+/// Source of successive random numbers from one stream, for searches that need no counter of their own.
 class NumberSource {
  public:
   explicit NumberSource(const RandomKey& key, std::uint32_t stream = 0) : stream_{key, stream} {}
 
-  /// Uniform number in (0, 1).
+  /// The next uniform random number in (0, 1).
   double uniform() { return open_uniform(next()); }
   double normal() { return standard_normal(next()); }
   std::vector<double> normals(std::size_t count) {
@@ -82,8 +85,8 @@ class NumberSource {
   std::uint64_t drawn_{0};
 };
 
-/// Streams of the random numbers that are drawn while a trial runs. The trial index and the stream are the
-/// counter words of the same name (RandomStream).
+/// The random number streams from which numbers are drawn while a trial runs (noise, lateness and others).
+/// The trial index and the stream are the counter words of the same name (RandomStream).
 struct TrialRandomness {
   std::uint64_t trial{0};
   std::uint32_t stream{0};

@@ -15,7 +15,7 @@ double round_to_digits(double value, int digits) {
 
 namespace {
 
-/// Whether a spreadsheet reads it as a number, maybe with a percent sign.
+/// Whether a spreadsheet reads the text as a number, maybe with a percent sign.
 bool is_number(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -44,11 +44,12 @@ constexpr std::array units{
     Unit{"%", Dimension::proportion, 1e-2},
 };
 
-/// Other spellings of unit names, without blanks.
+/// Other spellings of unit names, without blanks, with the name that each stands for.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> spellings{
     {{"°", "deg"}, {"\"", "arcsec"}, {"'", "arcmin"}, {"1", "count"}, {"sec", "s"}}};
 
-/// Words for a count, in any case and with an s or a point at the end: of drives, oscilloscopes and encoders.
+/// Words for an encoder or converter count as a unit, as drives, oscilloscopes and encoders name it; in any
+/// case, and with an s or a point at the end.
 constexpr std::array<std::string_view, 18> words_of_count{
     "count", "cnt", "ct",    "inc",     "incr",  "increment", "ink",       "inkr",     "inkrement",
     "tick",  "lsb", "pulse", "impulse", "digit", "qc",        "quadcount", "enccount", "encodercount"};
@@ -62,7 +63,7 @@ bool is_count(std::string text) {
   return known();
 }
 
-/// The text with `to` in place of each `from`.
+/// The text with each occurrence of `from` replaced by `to`.
 std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
   std::string result;
   for (std::size_t at = text.find(from); at != std::string_view::npos; at = text.find(from)) {
@@ -72,7 +73,8 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
   return result.append(text);
 }
 
-/// The name as it is compared: no blanks and products' signs, and u for both signs of micro.
+/// The unit name in the form in which names are compared: without blanks and multiplication signs, and with u
+/// for both signs of micro.
 std::string compared(std::string_view name) {
   std::string text(name);
   for (const std::string_view gone : {" ", "·", "⋅", "*", "."}) text = replaced(text, gone, "");

@@ -6,28 +6,28 @@
 
 namespace zerocount::text {
 
-/// Physical dimension of the numbers of a column.
+/// Physical dimension of the numbers in a column of a measured record.
 enum class Dimension {
-  time,        ///< SI unit: s
-  torque,      ///< N m
-  angle,       ///< rad
-  force,       ///< N
-  length,      ///< m
-  current,     ///< A
-  voltage,     ///< V
+  time,        ///< Time; SI unit s
+  torque,      ///< Torque; SI unit N m
+  angle,       ///< Angle; SI unit rad
+  force,       ///< Force; SI unit N
+  length,      ///< Length; SI unit m
+  current,     ///< Electric current; SI unit A
+  voltage,     ///< Voltage; SI unit V
   count,       ///< Steps of an encoder or of a converter; no SI unit
-  proportion,  ///< Fraction of a rated value; no SI unit
+  proportion,  ///< Fraction of a rated value; dimensionless, no SI unit
 };
 
-/// A unit of the columns of a record.
+/// A unit of the numbers in a column of a measured record.
 struct Unit {
   std::string_view name;
   Dimension dimension;
   double si;  ///< Value of one unit in the SI unit of its dimension
 };
 
-/// The unit of that name, or none. Blanks, '·' and '*' inside are ignored: "N m", "Nm" and "N·m" are the
-/// same. A count has many names, in any case: "inc", "Ticks", "LSB".
+/// The unit with this name; empty if there is none. Blanks, '·' and '*' inside the name are ignored: "N m",
+/// "Nm" and "N·m" are the same. A count has many names, in any case: "inc", "Ticks", "LSB".
 std::optional<Unit> unit_named(std::string_view name);
 
 /// The names of all units, for messages.

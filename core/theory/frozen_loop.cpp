@@ -17,12 +17,14 @@ namespace {
 constexpr double noticeable_change = 1e-3;        // of a motion within the hold
 constexpr double rounding_of_double_pole = 2e-8;  // of a double eigenvalue of exactly 1
 
-/// Growth per sample of the motion that grows fastest or dies out last: ln max|z|.
+/// Growth per sample, ln max|z|, of the motion that grows fastest or dies out last, from the poles z of the
+/// loop.
 double growth_of(const Eigen::VectorXcd& poles) {
   return std::log(poles.cwiseAbs().maxCoeff());
 }
 
-/// The chain with these signals held constant.
+/// The linear description of a controller with these input signals held constant, so that the paths from them
+/// are removed.
 loop::LinearChain without(loop::LinearChain chain, std::initializer_list<loop::LoopSignal> constant) {
   for (loop::LinearBlock& block : chain) {
     std::erase_if(block, [&](const loop::SignalPath& path) {

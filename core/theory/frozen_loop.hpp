@@ -19,7 +19,7 @@ namespace zerocount::theory {
 struct FrozenLoop {
   HeldPlant plant;
   loop::LinearChain controller;
-  double sample_time{0.0};  ///< T, s
+  double sample_time{0.0};  ///< Sample time T, s
   /// Whether the loop controls a position. A velocity loop alone leaves the position free; G then leads to
   /// the count that the velocity loop reads.
   bool closes_position{true};
@@ -42,13 +42,13 @@ std::optional<FrozenLoop> loop_of_motor_alone(const FrozenFriction& friction,
                                               const loop::ControllerParameters& controller,
                                               const LinearDrive& drive = {});
 
-/// Open loop L of the frozen loop.
+/// Open-loop frequency response L(z) of the sampled loop, from error to count.
 OpenLoop open_loop(const FrozenLoop& loop);
 
-/// The poles z of the closed loop: the eigenvalues of loop_map, without the one of a free position.
+/// The poles z of the closed loop: the eigenvalues of loop_map(), without the eigenvalue of a free position.
 Eigen::VectorXcd poles_of(const FrozenLoop& loop);
 
-/// Behaviour, within a move, of the motion that grows fastest or dies out last.
+/// Stability of a linear loop within a move, by the motion that grows fastest or dies out last.
 enum class LoopStability {
   stable,    ///< The motion dies out, by more than a thousandth within the hold, however slowly.
   marginal,  ///< The motion changes by less than a thousandth within the hold: for practical use, an
@@ -62,10 +62,10 @@ LoopStability stability_of(const Eigen::VectorXcd& poles, double sample_time, do
 LoopStability stability_of(const FrozenLoop& loop, double hold);
 
 /// The logarithm of the factor by which the motion that grows fastest, or dies out last, changes within
-/// `hold` (s); below 0 if it dies out.
+/// `hold` (s). Negative if it dies out, positive if it grows.
 double log_growth(const FrozenLoop& loop, double hold);
 
-/// Time constant of the motion that dies out last, oscillating or not, s: −T/ln|z| of the pole z of largest
+/// Time constant (s) of the motion that dies out last, oscillating or not: −T/ln|z| for the pole z of largest
 /// magnitude. 0 where all motion is gone after a sample, infinite where a pole does not decay.
 double slowest_time_constant(const Eigen::VectorXcd& poles, double sample_time);
 

@@ -8,8 +8,8 @@ namespace zerocount::theory {
 
 namespace {
 
-/// Matrix F of d(x, v)/dt = F·(x, v), with x = (measured angle, its rate, …), v the drive's input, and time
-/// in s.
+/// System matrix F of the driven plant in continuous time: d(x, v)/dt = F·(x, v), with x = (measured angle,
+/// its rate, …), v the drive's input, and time in s.
 Eigen::MatrixXd generator_of(const FrozenFriction& friction, double inertia,
                              const motion::LoadParameters& load, const LinearDrive& drive) {
   const auto [stiffness, damping, load_stiffness, load_damping] = friction;
@@ -56,8 +56,9 @@ Eigen::MatrixXd generator_of(const FrozenFriction& friction, double inertia,
 
 }  // namespace
 
-/// exp(F·t) holds the free motion over t in its upper left block and the driven one above its last entry, in
-/// counts and samples. The input changes after the delay's fraction of a sample.
+/// Discretises the plant exactly: exp(F·t), with F the system matrix in continuous time, holds the free
+/// motion over t in its upper left block and the driven one above its last entry, in counts and samples. The
+/// input changes after the delay's fraction of a sample.
 HeldPlant hold_plant(const FrozenFriction& friction, const motion::PlantParameters& plant, double count_angle,
                      double sample_time, const LinearDrive& drive, double delay) {
   const double T = sample_time;

@@ -9,7 +9,8 @@ namespace zerocount::theory {
 namespace {
 
 using Complex = std::complex<double>;
-using Row = Eigen::RowVectorXd;  ///< a signal as a linear form of the loop's states
+using Row = Eigen::RowVectorXd;  ///< Row vector that gives a signal as a linear combination of the loop's
+                                 ///< states
 
 std::vector<PathGroup> groups_of(const loop::LinearBlock& stage) {
   std::vector<PathGroup> groups;
@@ -42,7 +43,8 @@ bool knows_torque_in_force(const Blocks& blocks) {
   return false;
 }
 
-/// The wanted torque for the signals `count`, `velocity_count` and `in_force`, the torque in force.
+/// The torque that the controller wants for the signals `count`, `velocity_count` and `in_force`, the torque
+/// in force. The target is 0.
 /// @param pass returns the output of a group of paths for its input signals.
 template <class Signal, class Pass>
 Signal wanted_torque(const Blocks& blocks, const Signal& count, const Signal& velocity_count,
@@ -75,8 +77,9 @@ double coefficient(const std::vector<double>& of, Eigen::Index k) {
   return k < static_cast<Eigen::Index>(of.size()) ? of[static_cast<std::size_t>(k)] : 0.0;
 }
 
-/// The output of a group for its signals; its states begin at index `state` of the map:
-/// y = Σ b₀·x + s₁, sᵢ ← Σ bᵢ·x − aᵢ·y + sᵢ₊₁, the sums over the inputs.
+/// Enters the states of a path group into the map of the loop. They begin at index `state` of the map: y = Σ
+/// b₀·x + s₁, sᵢ ← Σ bᵢ·x − aᵢ·y + sᵢ₊₁, the sums over the inputs. @returns the output y of the group as a
+/// linear combination of the loop's states.
 template <class Input>
 Row realise(const PathGroup& group, const Input& input, Eigen::Index state, Eigen::MatrixXd& map) {
   const Eigen::Index order = group.order();
@@ -94,19 +97,20 @@ Row realise(const PathGroup& group, const Input& input, Eigen::Index state, Eige
   return output;
 }
 
-/// Quotient a/b without the protection against overflow that the language requires.
+/// Quotient a/b of two complex numbers, without the protection against overflow that the language requires.
 Complex quotient(Complex a, Complex b) {
   return a * std::conj(b) * (1.0 / std::norm(b));
 }
 
-/// Value of the polynomial Σ c[k]·w^k.
+/// Value of the polynomial Σ c[k]·w^k at the complex number w.
 Complex value_at(const std::vector<double>& c, Complex w) {
   Complex value = 0.0;
   for (auto k = c.rbegin(); k != c.rend(); ++k) value = value * w + *k;
   return value;
 }
 
-/// Linear equations of as many unknowns as a plant has states at most: two masses and the amplifier.
+/// A small system of linear equations, with as many unknowns as a plant has states at most: two masses and
+/// the amplifier.
 struct Equations {
   static constexpr int max_size = 5;
   Eigen::Index size;
@@ -114,8 +118,9 @@ struct Equations {
   Complex right[max_size];
 };
 
-/// Eliminates the unknowns above the first from the equations before theirs, the last one first, by the pivot
-/// of largest magnitude: equation k then contains the unknowns up to k.
+/// Brings the linear equations to triangular form, in which equation k contains the unknowns up to k. The
+/// unknowns above the first are eliminated from the equations before theirs, the last one first, by the pivot
+/// of largest magnitude.
 void eliminate(Equations& equations) {
   auto& [size, left, right] = equations;
   for (Eigen::Index k = size - 1; k > 0; --k) {
@@ -134,7 +139,7 @@ void eliminate(Equations& equations) {
   }
 }
 
-/// Solves for unknown k after eliminate().
+/// Value of unknown k of the linear equations, after eliminate().
 Complex unknown(const Equations& equations, Eigen::Index k) {
   const auto& [size, left, right] = equations;
   Complex rest = right[k];
@@ -225,8 +230,9 @@ Complex OpenLoop::at(Complex z) const {
   return controller_.at(z, 1.0, velocity_per_count) * power(inverse, plant_.delay) * count;
 }
 
-/// Two responses of the plant. First: count per torque decided, without the delay of whole samples, the first
-/// element of (z·I − A)⁻¹·(b + b_before/z). Second: count that the velocity loop reads, per count.
+/// Two responses of the plant at the point z. First: count per torque decided, without the delay of whole
+/// samples, the first element of (z·I − A)⁻¹·(b + b_before/z). Second: count that the velocity loop reads,
+/// per count of the position loop. @param inverse 1/z.
 std::pair<Complex, Complex> OpenLoop::plant_at(Complex z, Complex inverse) const {
   const Eigen::Index states = plant_.A.rows();
   const auto m = [&](Eigen::Index i, Eigen::Index j) { return (i == j ? z : 0.0) - plant_.A(i, j); };

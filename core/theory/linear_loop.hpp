@@ -20,20 +20,21 @@ namespace zerocount::theory {
 /// not read, its angle relative to the measured one; with an amplifier its torque), v the decided torques (N
 /// m).
 struct HeldPlant {
-  Eigen::MatrixXd A;  ///< State matrix, in units of counts and N m
-  Eigen::VectorXd b;  ///< Input vector of v[k − delay], counts/(N m); dimensionless in the row of the torque
-  Eigen::VectorXd b_before;  ///< Input vector of v[k − delay − 1]; 0 for a delay of whole samples
-  int delay{0};              ///< Whole samples between deciding a torque and applying it
+  Eigen::MatrixXd A;  ///< State matrix over one sample; states in units of counts and N m
+  Eigen::VectorXd b;  ///< Input vector for the torque v[k − delay], counts/(N m); dimensionless in the row of
+                      ///< the amplifier's torque
+  Eigen::VectorXd b_before;  ///< Input vector for the torque v[k − delay − 1]; 0 for a delay of whole samples
+  int delay{0};              ///< Number of whole samples between deciding a torque and applying it
   /// Counts of the encoder on the other mass per count of the fine one, if the velocity loop reads that
   /// encoder; otherwise 0.
   double other_per_count{0.0};
 };
 
-/// Springs and dampers between the masses and the frame, in place of their friction.
+/// Springs and dampers between each mass and the frame that replace its friction in the linear model.
 struct FrozenFriction {
-  double stiffness{0.0};       ///< Stiffness between motor and frame, N m/rad
-  double damping{0.0};         ///< Damping between motor and frame, N m s/rad
-  double load_stiffness{0.0};  ///< Stiffness between load and frame, N m/rad
+  double stiffness{0.0};       ///< Stiffness of the spring between motor and frame, N m/rad
+  double damping{0.0};         ///< Damping of the damper between motor and frame, N m s/rad
+  double load_stiffness{0.0};  ///< Stiffness of the spring between load and frame, N m/rad
   /// Damping between load and frame, besides the load's damping to ground, N m s/rad
   double load_damping{0.0};
 };
@@ -51,9 +52,9 @@ HeldPlant hold_plant(const FrozenFriction& friction, const motion::PlantParamete
 /// paths of a stage with the same poles share them), and the torques decided and not yet applied.
 Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller);
 
-/// Paths of a stage with equal poles, which share their states: Σ B(z)·input/A(z).
+/// Paths of one controller stage that have equal poles, and so share their states: Σ B(z)·input/A(z).
 struct PathGroup {
-  std::vector<double> a;  ///< 1, a₁, …
+  std::vector<double> a;  ///< Coefficients 1, a₁, … of the common denominator A(z)
   std::vector<std::pair<loop::LoopSignal, std::vector<double>>> numerators;
 
   Eigen::Index order() const;
@@ -65,7 +66,8 @@ class ControllerResponse {
  public:
   explicit ControllerResponse(const loop::LinearChain& controller);
 
-  /// @param error_gain gain on the error before the chain, such as the describing function of a dead zone.
+  /// The frequency response at a point z of the z plane. @param error_gain gain on the error before the
+  /// chain, such as the describing function of a dead zone.
   /// @param velocity_per_count count that the velocity loop reads per count of the position loop.
   std::complex<double> at(std::complex<double> z, double error_gain = 1.0,
                           std::complex<double> velocity_per_count = 1.0) const;
@@ -75,13 +77,14 @@ class ControllerResponse {
   bool knows_torque_in_force_;
 };
 
-/// L(z) = C(z)·G(z), G with the plant's delay: the open loop from error to count.
+/// Frequency response of the open loop from error to count, L(z) = C(z)·G(z), with C the controller and G the
+/// plant with its delay.
 class OpenLoop {
  public:
   OpenLoop(const HeldPlant& plant, const loop::LinearChain& controller);
 
   std::complex<double> at(std::complex<double> z) const;
-  /// L at z = exp(i·angle), angle = ωT.
+  /// Frequency response L at z = exp(i·angle), angle = ωT in rad.
   std::complex<double> at_angle(double angle) const { return at(std::polar(1.0, angle)); }
 
  private:

@@ -24,7 +24,7 @@ constexpr double lowest_angle = 1e-6 * half_turn;
 constexpr double highest_angle = (1.0 - 1e-9) * half_turn;
 constexpr double narrowest = 1e-9;  // distance from the unit circle below which a root lies on it
 
-/// A function of the angle whose changes of sign are sought.
+/// A real function of the angle ωT (rad) whose changes of sign are searched.
 using Sought = std::function<double(double angle)>;
 
 void make_increasing(std::vector<double>& angles) {
@@ -46,7 +46,7 @@ void add_around(Complex root, std::vector<double>& angles) {
   }
 }
 
-/// The zeros of c₀ + c₁·z⁻¹ + c₂·z⁻² + …
+/// The zeros z of the polynomial c₀ + c₁·z⁻¹ + c₂·z⁻² + …
 Eigen::VectorXcd zeros_of(const std::vector<double>& c) {
   const auto first = std::ranges::find_if(c, [](double x) { return x != 0.0; });
   const Eigen::Index order = std::max<Eigen::Index>(c.end() - first, 1) - 1;
@@ -59,7 +59,7 @@ Eigen::VectorXcd zeros_of(const std::vector<double>& c) {
   return numerics::eigenvalues(companion);
 }
 
-/// Removes the angles at which a root on the unit circle makes the response infinite, or 0/0.
+/// Removes from `angles` those at which a root on the unit circle makes the response infinite, or 0/0.
 void remove_at(const Eigen::VectorXcd& roots, std::vector<double>& angles) {
   for (const Complex root : roots) {
     if (distance_from_circle(root) > narrowest) continue;
@@ -68,7 +68,8 @@ void remove_at(const Eigen::VectorXcd& roots, std::vector<double>& angles) {
   }
 }
 
-/// The angle between low and high at which f changes its sign.
+/// The angle between low and high at which f changes its sign, by bisection. @param at_low value of f at
+/// `low`.
 double sign_change(const Sought& f, double low, double high, double at_low) {
   const auto is_before = [&](double angle) { return (f(angle) > 0.0) == (at_low > 0.0); };
   const auto narrow = [](const numerics::Bracket& angle) {
@@ -108,7 +109,7 @@ double other_side(const Sought& f, double low, double high, double side) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The angles at which f, a function of the response, changes its sign.
+/// The angles ωT (rad) at which `of_response`, a real function of the response, changes its sign.
 std::vector<double> sign_changes(const SampledResponse& response, double (*of_response)(Complex)) {
   constexpr double near = 0.3;  // |f| below which it may change its sign and back between three angles
   const Sought f = [&](double angle) { return of_response(response.at(angle)); };
@@ -201,14 +202,15 @@ using Complex = std::complex<double>;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Replaces the margin by one with this distance from instability if that is smaller.
+/// Replaces the margin by `other` if that is nearer to instability, `of_other` < `distance`; `distance` is
+/// replaced too.
 void adopt_nearer(Margin& margin, double& distance, const Margin& other, double of_other) {
   if (!(of_other < distance)) return;
   margin = other;
   distance = of_other;
 }
 
-/// The open-loop response of a loop, sampled at its search_angles.
+/// The open-loop frequency response of a loop, evaluated at its search_angles().
 SampledResponse response_of(const FrozenLoop& loop) {
   return sampled([open = open_loop(loop)](double angle) { return open.at_angle(angle); },
                  search_angles(loop));
@@ -218,12 +220,12 @@ double frequency_at(const FrozenLoop& loop, double angle) {
   return angle / (2.0 * std::numbers::pi * loop.sample_time);
 }
 
-/// Phase margin 180° + arg L, degrees.
+/// Phase margin of an open-loop value L with |L| = 1: 180° + arg L, degrees.
 double phase_margin(Complex value) {
   return std::arg(-value) * 180.0 / std::numbers::pi;
 }
 
-/// The highest crossover.
+/// The highest gain crossover of the loop, with its phase margin.
 /// @param crossovers all angles at which the response has gain 1, increasing.
 GainCrossover highest_of(const FrozenLoop& loop, const SampledResponse& response,
                          const std::vector<double>& crossovers) {
@@ -231,7 +233,7 @@ GainCrossover highest_of(const FrozenLoop& loop, const SampledResponse& response
   return {frequency_at(loop, crossovers.back()), phase_margin(response.at(crossovers.back()))};
 }
 
-/// Whether the loop is stable with its gain multiplied by `factor`, or on the edge of stability within
+/// Whether the closed loop is stable with its gain multiplied by `factor`, or on the edge of stability within
 /// rounding.
 bool is_stable_with(FrozenLoop loop, double factor) {
   constexpr double rounding = 2e-8;  // of a double eigenvalue of exactly 1
@@ -240,7 +242,8 @@ bool is_stable_with(FrozenLoop loop, double factor) {
   return log_growth(loop, loop.sample_time) <= rounding;
 }
 
-/// The factors of the gain at which a pole is on the unit circle, increasing.
+/// The factors of the loop's gain at which a closed-loop pole is on the unit circle, in increasing order,
+/// each with its frequency.
 std::vector<Margin> gains_on_circle(const FrozenLoop& loop, const SampledResponse& response) {
   std::vector<Margin> gains;
   const auto add = [&](Complex value, double angle) {
@@ -255,8 +258,8 @@ std::vector<Margin> gains_on_circle(const FrozenLoop& loop, const SampledRespons
   return gains;
 }
 
-/// Gains at which stability begins or ends. Between two neighbouring gains the loop is either stable or
-/// unstable throughout.
+/// The gain factors, among `gains`, at which stability begins or ends. Between two neighbouring gains the
+/// loop is either stable or unstable throughout.
 std::vector<Margin> edges_of_stability(const FrozenLoop& loop, const std::vector<Margin>& gains) {
   constexpr double beyond = 1.5;  // the first or the last one
   std::vector<char> stable;       // [interval], the first one below all gains

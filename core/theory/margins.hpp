@@ -17,7 +17,7 @@ namespace zerocount::theory {
 // Where the frequency response L(z), z = exp(i·ωT), of a loop crosses the unit circle and the negative real
 // axis. Angles are ωT, 0 < ωT < π.
 
-/// A frequency response at an angle.
+/// Function that gives the complex frequency response at an angle ωT (rad).
 using Response = std::function<std::complex<double>(double angle)>;
 
 /// Angles in increasing order that show the shape of L: from a millionth of π to just below π, spread by
@@ -26,33 +26,33 @@ using Response = std::function<std::complex<double>(double angle)>;
 /// pole on the circle, where L is infinite, there is none.
 std::vector<double> search_angles(const FrozenLoop& loop);
 
-/// Adds angles around the angles of these poles or zeros, in increasing order.
+/// Inserts angles around the angles of these poles or zeros of the loop; `angles` stays in increasing order.
 void add_angles_around(const Eigen::VectorXcd& roots, std::vector<double>& angles);
 
-/// A frequency response, and its values at angles that show its shape.
+/// A frequency response as a function, with its values at angles that show its shape.
 struct SampledResponse {
   Response at;
-  std::vector<double> angles;                  ///< increasing
-  std::vector<std::complex<double>> values{};  ///< [angle]
+  std::vector<double> angles;                  ///< Angles ωT, rad, in increasing order
+  std::vector<std::complex<double>> values{};  ///< Values of the frequency response, [angle]
 };
 SampledResponse sampled(Response response, std::vector<double> angles);
 
-/// The angles at which |response| passes 1. Pairs of crossings between two sampled angles are sought if
-/// |response| comes near 1 there.
+/// The angles ωT (rad) at which the absolute value of the response passes 1. Pairs of crossings between two
+/// sampled angles are sought if |response| comes near 1 there.
 std::vector<double> gain_crossovers(const SampledResponse& response);
 
-/// The angles at which the response passes the real axis, other than through infinity.
+/// The angles ωT (rad) at which the response passes the real axis, other than through infinity.
 std::vector<double> phase_crossovers(const SampledResponse& response);
 
-/// A margin and the frequency (Hz) of its crossover; both NaN without a crossover.
+/// A stability margin and the frequency (Hz) of its crossover; both NaN without a crossover.
 struct Margin {
   double value;
   double frequency;
 };
 
-/// The highest frequency at which the open loop has gain 1. Of interest while the rotor slides: the plant is
-/// 1/(J·s² + cs·s), and the friction torque, constant well above the Stribeck velocity, is a disturbance that
-/// the loop has to reject.
+/// The highest frequency at which the open loop has gain 1, and the phase margin there. It matters while the
+/// rotor slides: the plant is then 1/(J·s² + cs·s), and the friction torque, constant well above the Stribeck
+/// velocity, is a disturbance that the loop has to reject.
 struct GainCrossover {
   /// Highest frequency with |L| = 1, Hz: the bandwidth of the loop. NaN where |L| < 1 throughout, or |L| ≥ 1
   /// up to half the sample rate.
@@ -69,10 +69,11 @@ struct StabilityMargins {
   /// nearest to 1 by ratio. A factor below 1 limits a decrease of the gain, or is the decrease that an
   /// unstable loop needs. If no factor of the gain makes an unstable loop stable, there is none.
   Margin gain;
-  /// 180° + arg L where |L| = 1, in (−180, 180]: the value nearest to 0.
+  /// Phase margin, degrees: 180° + arg L at a frequency where |L| = 1, in (−180, 180]; of several, the value
+  /// nearest to 0.
   Margin phase;
   GainCrossover crossover;
-  bool no_gain_stabilises{false};  ///< The loop is unstable with every factor of its gain.
+  bool no_gain_stabilises{false};  ///< Whether the loop is unstable with every factor of its gain
 };
 
 /// Mₛ, the largest |S| over 0 < ω ≤ π/T, and its frequency: the distance of L from −1 is 1/Mₛ. A stable loop

@@ -10,11 +10,12 @@ namespace zerocount::theory {
 
 // Approach to zero error under slow integral control: the torque follows the spring without oscillation.
 
-/// Time constant of the error about a spring of `stiffness` k (N m/rad), s:
+/// Time constant (s) with which the control error decays slowly, if the contact acts as a spring of
+/// `stiffness` k (N m/rad):
 ///
 ///   τ = T·(k·Δx + kp)/(2·ki).
 ///
-/// The limit of slowest_time_constant of the sampled loop for a loop much slower than the plant.
+/// It is the limit of slowest_time_constant() of the sampled loop for a loop much slower than the plant.
 double slow_time_constant(double stiffness, const loop::EncoderParameters& encoder,
                           const loop::ControllerParameters& controller);
 
@@ -40,12 +41,12 @@ double slow_arrival_time(std::int64_t step, const friction::FrictionParameters& 
 double chatter_time(const motion::PlantParameters& plant, const friction::FrictionParameters& contact,
                     const loop::ControllerParameters& controller, double dwell);
 
-/// An axis that bounded torques move.
+/// An axis that is moved by bounded torques, for the shortest possible move.
 struct DrivenAxis {
-  double inertia;  ///< J, N m s²/rad
+  double inertia;  ///< Inertia J, N m s²/rad
   double damping;  ///< Viscous damping c, N m s/rad
-  double driving;  ///< Largest torque in the direction of the move minus friction, N m
-  double braking;  ///< Largest torque against the move plus friction, N m
+  double driving;  ///< Largest motor torque in the direction of the move, minus friction, N m
+  double braking;  ///< Largest motor torque against the move, plus friction, N m
 };
 
 /// The shortest time (s) in which the axis moves by `distance` (rad) from rest to rest: all of the driving

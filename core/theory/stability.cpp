@@ -18,7 +18,8 @@ namespace zerocount::theory {
 
 namespace {
 
-/// Controller is ControllerParameters, const or not.
+/// Reference to the integral gain of the control law, that of the PID law or of the cascade. Controller is
+/// ControllerParameters, const or not.
 template <class Controller>
 auto& integral_gain_in(Controller& controller) {
   switch (controller.blocks.structure) {

@@ -19,9 +19,9 @@ namespace zerocount::theory {
 // controller is linear_chain(controller), with `controller.delay` samples between deciding a torque and
 // applying it (loop_map). The loop is stable if all eigenvalues of its map lie inside the unit circle.
 
-/// Linear model of converter and amplifier.
+/// Linear model of digital-to-analogue converter and amplifier.
 struct LinearDrive {
-  double gain{1.0};       ///< Torque per torque decided: 1 + dac.gain_error
+  double gain{1.0};       ///< Gain from the torque decided to the torque given: 1 + dac.gain_error
   double bandwidth{0.0};  ///< Bandwidth of the amplifier, Hz; 0: the torque follows at once
 };
 
@@ -44,14 +44,14 @@ double sampled_critical_integral_gain(
     const std::function<FrozenLoop(const loop::ControllerParameters&)>& loop_with,
     loop::ControllerParameters controller, double scale);
 
-/// Static stiffness of spring and control law without integral, in the unit of integral_gain: N m/count or
-/// N m/rad.
+/// Static stiffness of the contact's spring and the control law without its integral, in the unit of
+/// integral_gain(): N m/count or N m/rad. @param stiffness stiffness of the spring, N m/rad.
 double static_stiffness(double stiffness, const loop::EncoderParameters& encoder,
                         const loop::ControllerParameters& controller);
 
-/// The part of the loop that the criteria (6) and (7) do not model, so that they do not apply: "the second
-/// mass", "the cascade", "the filters", …; empty if they apply. A derivative filter does not count if kd is
-/// 0.
+/// The part of the loop that the paper's criteria (6) and (7) do not model, so that they do not apply, as a
+/// noun for messages: "the second mass", "the cascade", "the filters", …; empty if the criteria apply. A
+/// derivative filter does not count if kd is 0.
 std::string_view left_out_of_criteria(const motion::PlantParameters& plant,
                                       const loop::ControllerParameters& controller);
 
@@ -66,20 +66,23 @@ double critical_integral_gain(double stiffness, const motion::PlantParameters& p
                               const loop::EncoderParameters& encoder,
                               const loop::ControllerParameters& controller);
 
-/// The paper's two criteria for one contact, as bounds on the digital integral gain.
+/// The paper's two stability criteria for one contact, as bounds on the digital integral gain.
 struct IntegralGainBounds {
-  double stable_below{0.0};    ///< Bound (6), for k = k1: stable for all histories below it, N m/count
-  double unstable_above{0.0};  ///< Bound (7), for k = k1 + k2: unstable above it, N m/count
+  double stable_below{0.0};    ///< Bound of criterion (6), with k = k1: the loop is stable for all histories
+                               ///< if the gain is below it, N m/count
+  double unstable_above{0.0};  ///< Bound of criterion (7), with k = k1 + k2: the loop is unstable if the gain
+                               ///< is above it, N m/count
 };
 
-/// The bounds of (6) and (7) for the contact `contact`.
+/// The bounds of the paper's criteria (6) and (7) on the digital integral gain, for the friction parameters
+/// `contact`.
 IntegralGainBounds integral_gain_bounds(const motion::PlantParameters& plant,
                                         const friction::FrictionParameters& contact,
                                         const loop::EncoderParameters& encoder,
                                         const loop::ControllerParameters& controller);
 
-/// Lowest k1 (N m/rad) over a whole revolution: the one the paper says to use in (6) for a robust design
-/// (issue 1 of its section 3).
+/// Lowest k1, the final stiffness of the contact's spring (N m/rad), over a whole revolution. The paper says
+/// to use it in criterion (6) for a robust design (issue 1 of its section 3).
 double lowest_k1(const friction::FrictionAlongRotor& friction);
 
 /// Torque step Δu (N m) that the DAC must stay below for a zero-count error to be possible: k1·Δx (issue 4 of
@@ -87,8 +90,8 @@ double lowest_k1(const friction::FrictionAlongRotor& friction);
 double dac_resolution_bound(double k1, const loop::EncoderParameters& encoder,
                             loop::EncoderChoice feedback = loop::EncoderChoice::fine);
 
-/// Natural frequency √(stiffness/J)/2π, Hz. For k1 + k2 it is the highest natural frequency of the
-/// pre-sliding motion.
+/// Natural frequency √(stiffness/J)/2π of the rotor on a spring, Hz. @param stiffness N m/rad; with k1 + k2
+/// the result is the highest natural frequency of the pre-sliding motion.
 double natural_frequency(double stiffness, const motion::PlantParameters& plant);
 
 /// Lowest advisable sample rate (Hz): ten times the highest natural frequency, as on the paper's machine

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// Density S at the frequency f (Hz) between two points.
+/// Spectral density S at the frequency f (Hz), interpolated between the points a and b.
 double density_between(const SpectrumPoint& a, const SpectrumPoint& b, double f) {
   if (a.density > 0.0 && b.density > 0.0) {
     const double part =
@@ -23,7 +23,7 @@ double density_between(const SpectrumPoint& a, const SpectrumPoint& b, double f)
   return a.density + (b.density - a.density) * (f - a.frequency) / (b.frequency - a.frequency);
 }
 
-/// Mean square ∫S df from `low` to `high` (Hz) between two points.
+/// Mean square ∫S df from `low` to `high` (Hz), within the interval between the points a and b.
 double mean_square_between(const SpectrumPoint& a, const SpectrumPoint& b, double low, double high) {
   const double at_low = density_between(a, b, low);
   const double at_high = density_between(a, b, high);

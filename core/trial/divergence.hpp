@@ -8,7 +8,7 @@
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 
-/// Early decision: a move that has diverged is ended.
+/// Early end of a move that has diverged, and of its trial.
 namespace zerocount::trial {
 
 /// Whether a move has diverged at a sample with the error e = `error`, counts. Always false without

@@ -9,20 +9,21 @@
 
 namespace zerocount::trial {
 
-/// Error bands for which entry and settling are measured: |e| ≤ b.
+/// Half widths b of the error bands |e| ≤ b for which entry time and settling time are measured.
 struct ErrorBands {
-  std::array<std::int64_t, max_error_bands> limits{0, 1};  ///< b, counts; increasing
+  std::array<std::int64_t, max_error_bands> limits{0, 1};  ///< Half widths b of the bands, counts; increasing
   std::size_t count{2};
 
   std::span<const std::int64_t> values() const { return std::span(limits).first(count); }
 };
 
-/// Maximum number of tolerances of a study.
+/// Maximum number of tolerances of the position error in a study.
 inline constexpr std::size_t max_tolerances = 8;
 
-/// Tolerances of the position error for which settling is measured: |ε| ≤ tolerance (see PositionError).
+/// Tolerances of the position error ε for which settling times are measured: |ε| ≤ tolerance (see
+/// PositionError).
 struct Tolerances {
-  std::array<double, max_tolerances> limits{};  ///< rad; increasing
+  std::array<double, max_tolerances> limits{};  ///< Tolerances, rad; increasing
   std::size_t count{0};
 
   std::span<const double> values() const { return std::span(limits).first(count); }

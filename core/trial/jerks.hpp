@@ -9,13 +9,15 @@
 
 namespace zerocount::trial {
 
-/// The jerks of one move: the maximal runs of samples with e ≠ 0 after the arrival dwell.
+/// Counts the jerks of one move. A jerk is an excursion from the target after arrival: a maximal run of
+/// samples with error e ≠ 0, after the error has first stayed 0 for the dwell time.
 class Jerks {
  public:
   explicit Jerks(std::int64_t move = 0, double sample_time = 0.0) : move_(move), sample_time_(sample_time) {}
 
-  /// Takes the error at sample k after the dwell. Samples with error 0 may be left out outside a jerk.
-  /// @returns whether a jerk ended before this sample; then it is in last().
+  /// Takes the error (counts) at sample k, which lies after the arrival. Samples with error 0 may be left out
+  /// while no jerk lasts.
+  /// @returns whether a jerk ended before this sample; then last() returns it.
   bool add(std::int64_t k, std::int64_t error) {
     if (error == 0) return end(k);
     if (!in_jerk_) {
@@ -27,7 +29,7 @@ class Jerks {
     return false;
   }
 
-  /// Ends the present jerk, if any, before sample k. @returns whether there was one.
+  /// Ends the present jerk, if one lasts, before sample k. @returns whether there was one.
   bool end(std::int64_t k) {
     if (!in_jerk_) return false;
     in_jerk_ = false;
@@ -39,10 +41,10 @@ class Jerks {
 
   bool in_jerk() const { return in_jerk_; }
   const Jerk& last() const { return jerk_; }
-  std::int64_t count() const { return up_ + down_; }  ///< Ended jerks
-  std::int64_t up() const { return up_; }             ///< Ended jerks in the positive direction
-  std::int64_t down() const { return down_; }         ///< Ended jerks in the negative direction
-  std::int64_t samples() const { return samples_; }   ///< Samples in ended jerks
+  std::int64_t count() const { return up_ + down_; }  ///< Number of jerks that have ended
+  std::int64_t up() const { return up_; }             ///< Number of ended jerks in the positive direction
+  std::int64_t down() const { return down_; }         ///< Number of ended jerks in the negative direction
+  std::int64_t samples() const { return samples_; }   ///< Number of samples in all ended jerks
 
  private:
   std::int64_t move_;

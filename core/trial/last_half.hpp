@@ -25,11 +25,11 @@ class LastHalf {
  public:
   static constexpr std::size_t max_rises = 131'072;
 
-  /// Starts the last half of a move of `samples` samples. Keeps the allocated memory. The first rise of the
+  /// Starts recording for a move of `samples` samples. Keeps the allocated memory. The first rise of the
   /// count allocates all the memory that the half can need.
   void start(std::int64_t samples);
 
-  /// Takes the count at sample k ≥ h; `before` is the count at sample k − 1, or `count` itself at sample h.
+  /// Takes the count at sample k ≥ h. @param before count at sample k − 1, or `count` itself at sample h.
   /// Samples without a change of the count may be left out, as long as finish() is called.
   void add(std::int64_t k, std::int64_t before, std::int64_t count) {
     if (!begun_) begin(before);
@@ -41,19 +41,22 @@ class LastHalf {
     }
   }
 
-  /// Ends the half with this count at its last sample.
+  /// Ends the last half of the move. @param count count at its last sample.
   void finish(std::int64_t count) {
     if (!begun_) begin(count);
   }
 
-  /// Count at sample h; valid once add() or finish() was called
+  /// Count at sample h, the first of the half; valid once add() or finish() was called
   std::int64_t first() const { return first_; }
 
-  /// Whether sgn(target − c_k) is the same for all k ≥ h, and |target − c_k| ≤ |target − c_h|.
+  /// Whether the count only approaches the target in the last half: sgn(target − c_k) is the same for all k ≥
+  /// h, and |target − c_k| ≤ |target − c_h|.
   bool only_approaches(std::int64_t target) const;
 
-  double amplitude() const;                 ///< counts
-  double period(double sample_time) const;  ///< s; NaN for fewer than two crossings
+  double amplitude() const;                 ///< Amplitude of the count's oscillation, (c_max − c_min)/2,
+                                            ///< counts
+  double period(double sample_time) const;  ///< Mean period of the count's oscillation, s; NaN for fewer than
+                                            ///< two upward crossings. @param sample_time T, s.
 
  private:
   struct Rise {
@@ -69,7 +72,8 @@ class LastHalf {
   std::int64_t first_{0};
   std::int64_t min_{0};
   std::int64_t max_{0};
-  std::vector<Rise> rises_;  ///< a ring once there are max_rises
+  std::vector<Rise> rises_;  ///< The rises of the count so far; used as a ring buffer once there are
+                             ///< max_rises
   std::size_t oldest_{0};
   std::size_t reserve_{0};
 };

@@ -11,14 +11,17 @@
 namespace zerocount::trial {
 namespace {
 
-/// Truncation error allowed per torque step, in fine counts. It is far below the required accuracy, because a
-/// trial that breaks away in every cycle of its oscillation amplifies an error from cycle to cycle.
+/// Truncation error of the motion allowed per torque step, in fine counts. It is far below the required
+/// accuracy, because a trial that breaks away in every cycle of its oscillation amplifies an error from cycle
+/// to cycle.
 constexpr double motion_tolerance_in_counts = 1e-11;
 
-/// Amplitude of an oscillation that counts as rest, in fine counts: a hundredth of the required accuracy.
+/// Amplitude of an oscillation below which the rotor counts as at rest, in fine counts: a hundredth of the
+/// required accuracy.
 constexpr double rest_in_counts = 1e-8;
 
-/// Twist δ (rad) at which the coupling carries the torque on the load at rest, and that torque τL (N m).
+/// State of a load at rest: the twist δ (rad) at which the coupling carries the torque on the load, and that
+/// torque τL (N m).
 struct HeldLoad {
   double twist;
   double torque;
@@ -46,7 +49,7 @@ HeldLoad held_load(const TrialParameters& p, std::span<const motion::Ripple> err
   return {twist, torque_at(twist)};
 }
 
-/// Torque below which the contact of the trial holds at rest, N m.
+/// Largest torque that the friction contact of the trial holds at rest, N m.
 double holding_limit(const TrialParameters& p) {
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
   return friction::holding_limit(p.friction.model, contact.breakaway, contact.coulomb_ratio);

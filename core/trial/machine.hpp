@@ -14,47 +14,51 @@
 
 namespace zerocount::trial {
 
-/// Initial state of an axis that holds the torques that act on it (InitialConditions::holding).
+/// Initial state of an axis that stands still and holds the torques that act on it
+/// (InitialConditions::holding).
 struct HeldStart {
-  double contact{0.0};   ///< Torque that the contact carries, N m
-  double twist{0.0};     ///< δ of the coupling of a second mass, rad
-  double integral{0.0};  ///< Torque added to initial.integral, which carries what the contact cannot, N m
+  double contact{0.0};   ///< Torque that the friction contact carries, N m
+  double twist{0.0};     ///< Twist δ of the coupling of a second mass, rad
+  double integral{0.0};  ///< Torque that is added to the initial integral, because the contact cannot carry
+                         ///< it, N m
 };
 
-/// Nothing moves at t = 0. With τL(θL) the constant torque and the ripple on the load, the coupling has
+/// Computes the initial state in which nothing moves at t = 0. With τL(θL) the constant torque and the ripple
+/// on the load, the coupling torque is
 ///
 ///   Ts = kL·h(δ) = −τL(ε(0) − δ),
 ///
-/// and the contact carries d + (1 + ε′(0))·τL; where that is its breakaway or more, or the law has no
-/// friction, −I does, and the whole loop starts in the steady state of that torque (loop::Controller::hold,
-/// held_torque).
+/// and the contact carries d + (1 + ε′(0))·τL. If that is its breakaway torque or more, or the law has no
+/// friction, the integral carries it in place of the contact, and the whole loop starts in the steady state
+/// of that torque (loop::Controller::hold, held_torque).
 HeldStart held_start(const TrialParameters& parameters);
 
-/// Integral I of the controller before the first sample, N m.
+/// Integral I of the control law before the first sample, N m.
 double initial_integral(const TrialParameters& parameters);
 
 /// Torque of the motor before the first decided one acts, N m: in a closed loop HeldStart::integral, so that
 /// an axis that its integral holds stands still through delay and amplifier; else 0.
 double held_torque(const TrialParameters& parameters);
 
-/// Place and velocity of the masses at t = 0, by which the counts before the first sample are known.
+/// Angles and velocity of the masses at t = 0, from which the counts before the first sample follow.
 loop::StartOfMotion start_of_motion(const TrialParameters& parameters);
 
-/// State of the plant at t = 0.
+/// Initial state of the plant at t = 0, from the trial's initial conditions.
 motion::PlantStart plant_start(const TrialParameters& parameters);
 
-/// Torques on the second mass, kinematic error, and initial twist.
+/// What belongs to the second mass besides its coupling: the torques on it, the kinematic error, and the
+/// initial twist.
 motion::LoadSide load_side(const TrialParameters& parameters);
 
-/// Largest count that a double represents as a whole number.
+/// Largest absolute count that the program allows, 2⁵², so that a double represents every count exactly.
 inline constexpr double max_counts = 0x1p52;
 
 /// Tolerances of the motion integrator, derived from the resolution (rad) of the fine encoder.
 motion::MotionTolerance motion_tolerance(double resolution);
 
-/// The machine of a trial: drive, plant and encoders, without the controller. One sample is: read, drive,
-/// hold.
-/// @tparam AnyPlant PlantOf a list of laws.
+/// The machine of a trial: drive, plant and encoders, without the controller. For each sample the functions
+/// read(), drive() and hold() are called in this order.
+/// @tparam AnyPlant PlantOf a list of friction laws.
 template <class AnyPlant>
 class Machine {
  public:
@@ -73,7 +77,8 @@ class Machine {
       plant_.advance(motion::constant_torque(held_torque(p)), clock_.lateness(0));
   }
 
-  /// Encoder readings and plant state at t_k. The caller fills in torque, target and reference.
+  /// Reads the encoders and the plant's state at the sampling instant t_k of sample k. The caller fills in
+  /// torque, target and reference of the returned record.
   SampleRecord read(std::int64_t k) {
     SampleRecord record;
     record.k = k;
@@ -102,11 +107,12 @@ class Machine {
   }
 
   const loop::EncoderReading& last_reading() const { return reading_; }
-  /// The angle that closes the loop at the last reading: of the rotor, or of the load, rad.
+  /// Angle of the mass that closes the loop, rotor or load, at the last reading, rad.
   double last_measured() const { return last_measured_; }
   double last_other() const { return last_other_; }  ///< Angle of the other mass at the last reading, rad
 
-  /// Sends the converter's output at t_k; completes `record`.
+  /// Sends the converter's output that was decided at t_k to amplifier and motor, and fills in the torque
+  /// fields of `record`.
   void drive(const loop::DacOutput& output, SampleRecord& record) {
     drive_.send(record.k, output, late_);
     clipped_ = output.clipped;
@@ -115,29 +121,34 @@ class Machine {
     record.drive_torque = drive_.torque();
   }
 
-  /// Applies the torque (N m) at t_k to the motor, past the converter; completes `record`.
+  /// Applies the torque (N m) at t_k to the motor, without rounding by the converter, and fills in the torque
+  /// fields of `record`.
   void drive_exactly(double torque, SampleRecord& record) {
     drive_.send_exact(torque, late_);
     record.torque = torque;
     record.drive_torque = drive_.torque();
   }
 
-  /// Ends the trial after this sample: the controller has failed.
+  /// Marks the trial as failed, because the controller has failed: it ends after this sample.
   void fail() { failed_ = true; }
 
-  /// Lets the plant move until the next sample.
+  /// Lets the plant move under the motor's torque until the next sample.
   void hold() {
     for (const loop::TorquePiece& piece : drive_.pieces())
       plant_.advance(piece.course, piece.duration, plant::max_steps_of_sample);
   }
 
-  /// Whether the controller has not failed, and the motion is finite and within the counters' range.
+  /// Whether the trial can go on: the controller has not failed, and the motion is finite and within the
+  /// counters' range.
   bool readable() const {
     return !failed_ && plant_.finite() &&
            std::abs(plant_.theta()) < max_counts * measurement_.finest_resolution();
   }
 
-  bool clipped() const { return clipped_; }  ///< The converter was out of range at this sample.
+  bool clipped() const {
+    return clipped_;
+  }  ///< Whether the converter's range, or the amplifier's limit, was
+     ///< exceeded at this sample
   const loop::Measurement& measurement() const { return measurement_; }
   AnyPlant& plant() { return plant_; }
 

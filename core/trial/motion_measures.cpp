@@ -55,8 +55,9 @@ void MotionMeasures::add_to_rest(const MotionSample& sample, double true_error) 
   entered_ = entered_ || rest_.samples >= dwell_;
 }
 
-/// A sine is followed from the end of its first period on. Its reference turns at the odd quarters of a
-/// period; the spike of a reversal is sought in the quarter of a period after it.
+/// Adds a sample at the time t (s) with this following error to the measures of following. A sine is followed
+/// from the end of its first period on. Its reference turns at the odd quarters of a period; the spike of a
+/// reversal is sought in the quarter of a period after it.
 void MotionMeasures::add_to_following(double t, double error, const loop::Reference& reference) {
   const double size = std::abs(error);
   if (reference.is_sine()) {

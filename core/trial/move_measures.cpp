@@ -75,7 +75,7 @@ Outcome verdict(double largest_error, std::int64_t target, const LastHalf& last_
   return last_half.only_approaches(target) ? Outcome::off_target : Outcome::oscillating;
 }
 
-/// The verdict on a move with a target, and the measures that depend on it.
+/// Sets the verdict on a move with a target, and the measures that depend on the verdict.
 void judge_end(const MoveTiming& timing, const RunningMeasures<double>& m, const LastHalf& last_half,
                const MoveEnd& end, MoveOutcome& outcome) {
   if (end.stopped) {
@@ -94,7 +94,8 @@ void judge_end(const MoveTiming& timing, const RunningMeasures<double>& m, const
   }
 }
 
-/// @param samples number of samples of the move, all of which were run.
+/// The outcome for one error band of a move whose samples were all run. @param samples number of samples of
+/// the move.
 BandOutcome outcome_of_band(const MoveTiming& timing, double samples, BandMeasures<double> band) {
   // One more sample, outside, ends the last run inside the band.
   const double settled = band.last_outside + 1.0;
@@ -165,7 +166,8 @@ bool MoveMeasures::add(const MoveSample& sample) {
   return jerk_ended;
 }
 
-/// Updates the measures that follow from the error. @returns whether a jerk ended before this sample.
+/// Updates the measures that depend on the error of this sample. @returns whether a jerk (excursion of the
+/// error after arrival) ended before it.
 bool MoveMeasures::judge(const MoveSample& sample) {
   const std::int64_t error = sample.target - sample.count;
   const std::int64_t k = whole(running_.samples);

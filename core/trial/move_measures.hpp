@@ -13,15 +13,17 @@
 
 namespace zerocount::trial {
 
-/// The name of a measure of a move in files.
+/// Name of a measure of a move in files, and the conditions under which the measure exists.
 struct NamedMeasure {
   std::string_view name;
-  bool of_motion{false};  ///< The measure exists only with `verdict.motion`.
-  /// The measure exists only if the position error is measured (VerdictParameters::position_error).
+  bool of_motion{false};  ///< Whether the measure exists only with `verdict.motion`, which requests measures
+                          ///< of the true motion
+  /// Whether the measure exists only if the position error is measured (VerdictParameters::position_error).
   bool of_position{false};
 };
 
-/// All measures of a move that are numbers or qualities, except the measures of error bands and tolerances.
+/// The names of all measures of a move that are numbers or qualities (true or false), except the measures of
+/// error bands and tolerances.
 std::span<const NamedMeasure> named_measures();
 
 /// The measures that the bare name `settling_time` may mean, for the message that refuses it. Empty for every
@@ -29,55 +31,57 @@ std::span<const NamedMeasure> named_measures();
 /// `settling_time_mean_low`.
 std::string_view meanings_of_settling_time(std::string_view name);
 
-/// The names of the measures of an error band, before the band: "band_exits" of "band_exits[1]".
+/// The names of the measures of an error band, without the band in brackets: "band_exits" of "band_exits[1]".
 std::span<const std::string_view> named_band_measures();
-/// Name of the measure of a tolerance of the position error, before the tolerance.
+/// Name of the measure for a tolerance of the position error, without the tolerance in brackets.
 inline constexpr std::string_view tolerance_measure = "tolerance_settling_time";
 
-/// Times that the measures of a move refer to, in samples.
+/// Lengths of time, in samples, to which the measures of a move refer.
 struct MoveTiming {
-  double sample_time{5e-4};    ///< T, s
+  double sample_time{5e-4};    ///< Sample time T, s
   std::int64_t samples{2000};  ///< Number N of samples of the move
-  std::int64_t dwell{100};     ///< Dwell D: samples at zero error that make an arrival
-  std::int64_t window{100};    ///< Window W: last samples of the move, which decide the outcome
-  bool judged{true};           ///< False if the move has a torque level in place of a target.
+  std::int64_t dwell{100};     ///< Dwell D: number of successive samples with zero error that make an arrival
+  std::int64_t window{100};    ///< Window W: number of samples at the end of the move that decide its outcome
+  bool judged{true};           ///< Whether the move has a target; false if it has a torque level instead
   ErrorBands bands{};
-  std::int64_t number{0};  ///< Number of the move in its trial
+  std::int64_t number{0};  ///< Number of the move in its trial, from 0
 };
 
-/// The measures of a band before the first sample.
+/// The measures of an error band before the first sample: no sample outside, no entry, no exits.
 inline constexpr BandMeasures<double> no_samples_of_band{-1.0, -1.0, 0.0};
 
 MoveTiming move_timing(const TrialParameters& parameters, std::size_t move);
 
-/// Distance from the rotor at `theta` (rad) to the middle of the target's count, counts (see MoveOutcome).
-/// @param resolution resolution of the fine encoder, rad. @param phase phase of the fine encoder, counts.
+/// True error: distance from the rotor at `theta` (rad) to the middle of the target's count, counts (see
+/// MoveOutcome).
+/// @param target counts. @param resolution Δx of the fine encoder, rad. @param phase phase of the fine
+/// encoder, counts.
 inline double true_error(std::int64_t target, double theta, double resolution, double phase) {
   return static_cast<double>(target) - (theta / resolution + phase - 0.5);
 }
 
-/// Contribution of one sample to the measures of its move.
+/// Values of one sample that the measures of its move use.
 struct MoveSample {
-  std::int64_t target{0};  ///< Target, counts; 0 without a target
-  std::int64_t count{0};   ///< counts
+  std::int64_t target{0};  ///< Target of the move, counts; 0 for a move without a target
+  std::int64_t count{0};   ///< Count of the fine encoder
   double torque{0.0};      ///< Torque decided at this sample, N m
-  bool clipped{false};     ///< The DAC was out of range
-  double theta{0.0};       ///< rad
-  double creep{0.0};       ///< xp, rad
+  bool clipped{false};     ///< Whether the wanted code was beyond the converter's range at this sample
+  double theta{0.0};       ///< Rotor angle θ, rad
+  double creep{0.0};       ///< Plastic extension xp by creep, rad
 };
 
-/// The end of a move.
+/// State of a move at its end.
 struct MoveEnd {
   MoveSample last;              ///< Last sample of the move
-  bool broke_away{false};       ///< The hook slid during the move
-  std::int64_t reversal_depth;  ///< Largest number of reversal points on the stack
-  bool stopped{false};          ///< The move has diverged and was ended.
-  bool finite{true};            ///< The motion could be followed to the end.
+  bool broke_away{false};       ///< Whether the friction contact slid at any time during the move
+  std::int64_t reversal_depth;  ///< Largest number of reversal points on the spring's stack during the move
+  bool stopped{false};          ///< Whether the move has diverged and was ended
+  bool finite{true};            ///< Whether the motion was finite and could be followed to the end
 };
 
-/// The measures of a move. The last jerk has been ended, and the last half finished unless the move ended
-/// before it.
-/// @param bands measures of the bands of `timing`.
+/// Computes the outcome of a move from its accumulated measures. The last jerk must have been ended, and the
+/// last half finished unless the move ended before it.
+/// @param bands measures of the error bands of `timing`.
 MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<double>& measures,
                             std::span<const BandMeasures<double>> bands, const Jerks& jerks,
                             const LastHalf& last_half, const MoveEnd& end);
@@ -93,14 +97,17 @@ class MoveMeasures {
   }
 
   /// Takes the next sample of the move.
-  /// @returns whether a jerk ended before this sample; then it is in last_jerk().
+  /// @returns whether a jerk (excursion of the error after arrival) ended before this sample; then
+  /// last_jerk() returns it.
   bool add(const MoveSample& sample);
 
-  /// Ends the move as diverged at the last sample.
+  /// Marks the move as diverged at the last sample, so that it ends there.
   void stop() { stopped_ = true; }
 
-  /// Finishes the move with measures of the plant. Call once, after the last sample.
-  /// @returns whether a jerk was cut by the end; then it is in last_jerk().
+  /// Computes the outcome of the move. Call once, after the last sample. @param broke_away whether the
+  /// friction contact slid during the move. @param reversal_depth largest number of reversal points. @param
+  /// finite whether the motion could be followed to the end.
+  /// @returns whether a jerk was cut off by the end; then last_jerk() returns it.
   bool finish(bool broke_away, std::int64_t reversal_depth, bool finite);
 
   const Jerk& last_jerk() const { return jerks_.last(); }

@@ -10,9 +10,9 @@
 
 namespace zerocount::trial {
 
-/// The levels (N m) of a random history, in order. With u_k = open_uniform of number k of the history's key:
-/// the first level lies upwards where u_0 ≥ ½ and downwards otherwise, and the direction changes from level
-/// to level; level k = 1 … reversals is
+/// Draws the torque levels (N m) of a random load history, in order. With u_k = open_uniform of number k of
+/// the history's key: the first level lies upwards where u_0 ≥ ½ and downwards otherwise, and the direction
+/// changes from level to level; level k = 1 … reversals is
 ///
 ///   l_k = l_{k−1} + u_k·(±torque − l_{k−1}),   l_0 = 0,
 ///
@@ -25,21 +25,21 @@ class OpenLoop {
  public:
   explicit OpenLoop(const TrialParameters& parameters) : p_(parameters), converter_(parameters.dac) {}
 
-  /// Starts the next move.
+  /// Starts the next move, to the next torque level.
   /// @param number number of the move; moves come in order.
   void start_move(std::size_t number);
 
   struct Decision {
-    /// Output of the converter; with TorquePath::exact the torque as commanded, and the code 0
+    /// Output of the converter; with TorquePath::exact, the torque as commanded with the code 0
     loop::DacOutput output;
-    bool exact;  ///< The torque bypasses the converter.
-    bool stays;  ///< The same torque is decided at all later samples of the move.
+    bool exact;  ///< Whether the torque bypasses the converter
+    bool stays;  ///< Whether the same torque is decided at all later samples of the move
   };
   /// Decides the torque of a sample.
   /// @param i number of the sample from the start of the move.
   Decision decide(std::int64_t i);
 
-  /// Time until the torque is at the level of the move, s.
+  /// Time from the start of the move until the torque has reached its level, s.
   double travel_time() const;
 
  private:

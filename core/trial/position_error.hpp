@@ -19,37 +19,40 @@ namespace zerocount::trial {
 /// the encoder.
 class PositionError {
  public:
-  /// @param resolution Δx of the fine encoder, rad.
+  /// Prepares the measures of a trial. @param resolution Δx of the fine encoder, rad.
   PositionError(const TrialParameters& parameters, double resolution);
 
-  /// Starts the next move. @param number number of the move; moves come in order.
+  /// Starts to measure the next move. @param number number of the move from 0; moves come in order.
   void start_move(std::size_t number);
 
-  /// Takes sample k of the move. @param theta rad
+  /// Takes sample k of the move. @param theta angle θ of the measured mass, rad.
   void add(std::int64_t k, double theta, const loop::Reference& reference);
   /// Takes sample k of a move whose target does not move. At the samples that were left out since the last
-  /// one, θ must have been within quiet_range().
+  /// call, the angle must have been within quiet_range(). @param theta angle θ of the measured mass, rad.
   void add_at_target(std::int64_t k, double theta);
 
-  /// Positions of the rotor, rad.
+  /// A range of angles of the measured mass, rad.
   struct Range {
     double low;
     double high;
   };
-  /// Positions around the last one at which a sample neither leaves nor enters a tolerance and does not
-  /// exceed the overshoot so far. Samples in this range need not be taken. Only for a move whose target does
+  /// Range of angles around the last one in which a sample neither leaves nor enters a tolerance and does not
+  /// exceed the overshoot so far, so that samples in it need not be taken. Only for a move whose target does
   /// not move.
   Range quiet_range() const;
 
   double last() const { return error_; }  ///< Position error ε of the last sample, rad
 
-  /// Adds the measures of the move to its outcome, whose other measures are final.
+  /// Adds the settling times and the true overshoot of the move to its outcome, whose other measures are
+  /// final.
   void finish(MoveOutcome& outcome) const;
 
  private:
-  /// Target of the move, rad, before rounding; 0 before the first.
+  /// Target of move `number` before it is rounded to counts, rad, measured from the position at the start of
+  /// the trial.
   double exact_target(std::size_t number) const;
-  /// @param followed position that the rotor should have, rad.
+  /// Takes sample k. @param theta angle of the measured mass, rad. @param followed angle that the mass should
+  /// have, rad.
   void add_error(std::int64_t k, double theta, double followed);
 
   const TrialParameters& p_;

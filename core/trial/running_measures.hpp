@@ -2,33 +2,35 @@
 
 #include "core/numerics/number.hpp"
 
-/// The measures of a move that change with every sample, for double and for the vectors of the batch engine.
+/// Measures of a move that change with every sample, as templates for double and for the vectors of the batch
+/// engine.
 namespace zerocount::trial {
 
-/// The measures of the arrival at the target, up to the present sample. Flags are 0 or 1, whole numbers
-/// exact.
-/// @tparam Number double, a vector, or an array with the numbers of many lanes.
+/// Measures of the arrival at the target, accumulated up to the present sample. Flags are 0 or 1, whole
+/// numbers are exact.
+/// @tparam Number double, a vector, or an array with one number per lane of the batch engine.
 template <class Number>
 struct ArrivalMeasures {
-  Number samples;         ///< Samples so far
+  Number samples;         ///< Number of samples so far
   Number zeros_in_a_row;  ///< Successive samples with zero error up to the last sample
-  Number arrived;         ///< 1 if the error was 0 for the whole dwell
-  Number arrival;         ///< First sample of the arrival dwell; valid once arrived
+  Number arrived;         ///< 1 once the error has been 0 for the whole dwell time, otherwise 0
+  Number arrival;  ///< Number of the sample from which the error first stayed 0 for the dwell time; valid
+                   ///< once `arrived` is 1
 };
 
 /// Measures of a move, accumulated up to the present sample.
 template <class Number>
 struct RunningMeasures : ArrivalMeasures<Number> {
-  Number direction;              ///< sgn e_0
-  Number largest_since_arrival;  ///< max |e| after the dwell, counts
-  Number largest_in_window;      ///< max |e| in the last W samples, counts
-  Number overshoot;              ///< Largest excursion beyond the target, counts
-  Number peak_torque;            ///< max |torque decided|, N m
-  Number saturated;              ///< 1 if the converter has clipped
+  Number direction;              ///< Sign of the error at the first sample, sgn e_0
+  Number largest_since_arrival;  ///< Largest |e| since the error first stayed 0 for the dwell time, counts
+  Number largest_in_window;      ///< Largest |e| in the last W samples of the move, counts
+  Number overshoot;              ///< Largest excursion of the count beyond the target, counts
+  Number peak_torque;            ///< Largest |torque decided| so far, N m
+  Number saturated;              ///< 1 once the converter's range has been exceeded, otherwise 0
 };
 
-/// Calls `visit` for each member in turn, with that member of all `arrivals`. for_each_measure does so for
-/// `measures`.
+/// Calls `visit` once for each data member of ArrivalMeasures, with that member of all objects in `arrivals`
+/// as arguments.
 template <class Visit, class... Arrivals>
 ZEROCOUNT_ALWAYS_INLINE constexpr void for_each_of_arrival(Visit visit, Arrivals&... arrivals) {
   visit(arrivals.samples...);
@@ -58,24 +60,27 @@ static_assert(
 /// Maximum number of error bands of a study.
 inline constexpr int max_error_bands = 8;
 
-/// Measures of one error band |e| ≤ b, as of the last sample outside it. A run of samples inside the band
-/// counts when it ends.
+/// Measures of one error band |e| ≤ b, up to the last sample outside the band. A run of samples inside the
+/// band counts when it ends.
 template <class Number>
 struct BandMeasures {
-  Number last_outside;  ///< Last sample with |e| > b; −1 if none
-  Number entry;         ///< First sample of the first dwell inside the band; −1 if none has ended
-  Number exits;         ///< Number of maximal runs of samples with |e| > b after the entry dwell
+  Number last_outside;  ///< Number of the last sample with |e| > b; −1 if there is none
+  Number entry;  ///< Number of the sample from which the error first stayed in the band for the dwell time;
+                 ///< −1 if no such stay has ended
+  Number exits;  ///< Number of times that the error left the band after it had first stayed in it for the
+                 ///< dwell time
 };
 
-/// Limits that the running measures compare with, in samples.
+/// Lengths, in samples, that the running measures of a move need.
 template <class Number>
 struct MeasureLimits {
   Number samples;  ///< Number N of samples of the move
-  Number dwell;    ///< Arrival dwell D
-  Number window;   ///< Window W
+  Number dwell;    ///< Dwell D: number of successive samples with zero error that make an arrival
+  Number window;   ///< Window W: last samples of the move, which decide its outcome
 };
 
-/// Updates the measures by the error of the next sample (counts).
+/// Updates the measures of a move by the error at the next sample (counts). Call measure_torque() for the
+/// same sample afterwards.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE void measure_error(RunningMeasures<Number>& m, const MeasureLimits<Number>& limits,
                                            const Number& error) {
@@ -94,9 +99,9 @@ ZEROCOUNT_ALWAYS_INLINE void measure_error(RunningMeasures<Number>& m, const Mea
   m.overshoot = max(m.overshoot, -m.direction * error);
 }
 
-/// Takes sample k, at which |e| is `size` counts. Samples inside the band may be left out.
-/// @param limit b of the band, counts. @param dwell D, samples @returns a mask: true if the sample lies
-/// outside the band.
+/// Updates the measures of an error band by sample k of the move. Samples inside the band may be left out.
+/// @param limit half width b of the band, counts. @param dwell D, samples. @param size |e| at sample k,
+/// counts. @returns a mask: true if the sample lies outside the band.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto measure_band(BandMeasures<Number>& band, const Number& limit,
                                           const Number& dwell, const Number& k, const Number& size) {
@@ -112,7 +117,8 @@ ZEROCOUNT_ALWAYS_INLINE auto measure_band(BandMeasures<Number>& band, const Numb
   return outside;
 }
 
-/// Updates the measures by the torque (N m) decided at this sample, and ends the sample.
+/// Updates the measures of a move by the torque (N m) decided at this sample, and counts the sample. Call
+/// measure_error() for the same sample before.
 template <class Number, class Mask>
 ZEROCOUNT_ALWAYS_INLINE void measure_torque(RunningMeasures<Number>& m, const Number& torque,
                                             const Mask& clipped) {
@@ -121,7 +127,7 @@ ZEROCOUNT_ALWAYS_INLINE void measure_torque(RunningMeasures<Number>& m, const Nu
   m.samples = m.samples + Number(1.0);
 }
 
-/// Adds `samples` samples (0 or more) with zero error and the last torque.
+/// Updates the measures for `samples` further samples (0 or more) with zero error and the last torque.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE void measure_zeros(ArrivalMeasures<Number>& m, const Number& dwell,
                                            const Number& samples) {

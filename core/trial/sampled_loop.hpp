@@ -27,38 +27,39 @@ namespace zerocount::trial {
 ///   finish(m):      travel time, changes of the phase, measures of the position error and the true motion
 class SampledLoop {
  public:
-  /// @param measurement encoders by which the counts are read.
+  /// Creates the loop of a trial. @param measurement the encoders that give the counts.
   SampledLoop(const TrialParameters& parameters, const loop::Measurement& measurement);
 
-  /// Starts the next move.
+  /// Starts the next move, with its reference.
   /// @param number number of the move; moves come in order.
   void start_move(std::size_t number);
 
   struct Decision {
-    std::int64_t reference;  ///< Reference that the controller follows, counts
-    /// Target from which the error is measured, counts: the move's target, or the reference if it moves for
-    /// ever.
+    std::int64_t reference;  ///< Position that the controller follows at this sample, counts
+    /// Target from which the error is measured, counts: the move's target, or the reference if the reference
+    /// never comes to rest (sine, record).
     std::int64_t target;
     loop::DacOutput output;
-    bool ran;      ///< The controller has run at this sample.
-    bool arrived;  ///< The reference stays at the target from now on.
+    bool ran;      ///< Whether the controller has run at this sample
+    bool arrived;  ///< Whether the reference stays at the target from now on
     /// Wanted torque of the controller when it last ran, before dither, limit and rounding, N m.
     double wanted;
   };
-  /// Decides the code of a sample.
-  /// @param k number of the sample from the start of the trial. @param i number of the sample from the start
-  /// of the move.
+  /// Runs the controller at a sample and decides the converter's code.
+  /// @param k number of the sample, counted from the start of the trial. @param i number of the sample,
+  /// counted from the start of the move.
   /// @param theta angle that the encoders have read, rad. @param other angle of the other mass, rad, if there
   /// is one.
   Decision decide(std::int64_t k, std::int64_t i, const loop::EncoderReading& reading, double theta,
                   double other);
 
   loop::ControlPhase phase() const { return controller_.phase(); }
-  /// Whether the controller's torque was not finite at the last sample, where a torque of 0 was converted.
+  /// Whether the controller gave a torque that is not finite at the last sample; a torque of 0 was converted
+  /// in its place.
   bool failed() const { return failed_; }
 
-  /// Ends the move. @param outcome outcome of the move, complete except for the measures of this loop, which
-  /// are added.
+  /// Ends the move. @param outcome outcome of the move, complete except for the measures of this loop (travel
+  /// time, phase changes, position error, true motion), which are added.
   void finish(MoveOutcome& outcome);
 
  private:

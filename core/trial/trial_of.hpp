@@ -8,12 +8,13 @@
 #include "core/trial/trial.hpp"
 #include "core/trial/watched_trial.hpp"
 
-/// A trial as a template over its plant, PlantOf a list of laws.
+/// Implementation of a trial as a template over its plant, which is PlantOf a list of friction laws.
 namespace zerocount::trial {
 
-/// Whether the friction slid during a move.
-/// @param at_start, at_instants whether it slid at the start of the move, and at any of its sampling
-/// instants.
+/// Whether the friction contact slid during a move.
+/// @param breakaway manner in which the law begins to slide. @param at_start, at_instants whether it slid at
+/// the start of the move, and at any of its sampling instants. @param broke_away whether it broke away at any
+/// time during the move.
 inline bool slid_in_move(friction::Breakaway breakaway, bool at_start, bool at_instants, bool broke_away) {
   switch (breakaway) {
     case friction::Breakaway::never:
@@ -26,10 +27,11 @@ inline bool slid_in_move(friction::Breakaway breakaway, bool at_start, bool at_i
   return false;
 }
 
-/// Runs the samples of one move, from number `first` on. `decide(i, record)` completes the record of its
-/// sample i: target, reference and torque. A move that diverges is ended.
-/// @param target target of the move, counts. If the reference moves for ever, the move is measured as if the
-/// reference stood at this target, with the same errors.
+/// Runs the samples of one move. A move that diverges is ended.
+/// @param first number of the move's first sample, counted from the start of the trial. @param target target
+/// of the move, counts. If the reference never comes to rest, the move is measured as if the reference stood
+/// at this target, with the same errors. @param decide decide(i, record) completes the record of sample i of
+/// the move: target, reference and torque.
 template <class AnyPlant, class Decide>
 MoveOutcome run_move(Machine<AnyPlant>& machine, const MoveTiming& timing, const VerdictParameters& verdict,
                      std::int64_t move, std::int64_t first, std::int64_t target,
@@ -67,7 +69,7 @@ MoveOutcome run_move(Machine<AnyPlant>& machine, const MoveTiming& timing, const
   return outcome;
 }
 
-/// Closed loop: the controller follows a reference to each target.
+/// Runs a closed-loop trial, in which the controller follows a reference to each target.
 /// @throws Interrupted if `watch` ends the trial
 template <class AnyPlant>
 TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers,
@@ -109,7 +111,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
   return outcome;
 }
 
-/// Open loop: the torque goes from level to level, or follows a record.
+/// Runs an open-loop trial, in which the torque goes from level to level, or follows a record.
 template <class AnyPlant>
 TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& observers) {
   Machine<AnyPlant> machine(p);
@@ -137,7 +139,7 @@ TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& obser
   return outcome;
 }
 
-/// run_trial, with the laws of another list.
+/// Runs a trial as run_trial() does, but with a plant that may have other friction laws.
 template <class AnyPlant>
 TrialOutcome run_trial_of(const TrialParameters& parameters, const TrialObservers& observers = {}) {
   return parameters.command.torque.levels.empty() ? follow_targets<AnyPlant>(parameters, observers)

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t checksum_size = 4;
 
-/// Fletcher-32 of big-endian 16-bit words; a last single byte is the high byte of a word.
+/// The Fletcher-32 checksum of bytes as big-endian 16-bit words; a last single byte counts as the high byte
+/// of a word.
 std::uint32_t fletcher32(std::span<const std::byte> bytes) {
   constexpr std::size_t words_without_overflow = 360;
   const auto fold = [](std::uint32_t sum) { return (sum & 0xffffU) + (sum >> 16U); };
@@ -41,18 +42,18 @@ std::uint32_t fletcher32(std::span<const std::byte> bytes) {
   return fold(sum2) << 16U | fold(sum1);
 }
 
-/// Eight matrices of 8 × 8 bytes, [row][matrix], byte i of a row being its bits 8·i to 8·i + 7.
+/// Eight matrices of 8 × 8 bytes, [row][matrix]; byte i of a row is its bits 8·i to 8·i + 7.
 using Matrices = std::array<std::array<std::uint64_t, 8>, 8>;
 constexpr std::size_t elements_of_matrices = 64;
 
-/// Whether elements of this size are copied to matrices, whose bytes are in the order of a little-endian
-/// machine.
+/// Whether elements of this size can be shuffled by transposing matrices of 8 × 8 bytes: eight bytes, on a
+/// little-endian processor.
 constexpr bool fit_in_matrices(std::size_t element_size) {
   return element_size == 8 && std::endian::native == std::endian::little;
 }
 
-/// Exchanges the blocks of `size` × `size` bytes next to the diagonal. @param low mask of every other `size`
-/// bytes
+/// One step of a matrix transpose: exchanges neighbouring off-diagonal blocks of `size` × `size` bytes.
+/// @param low mask that selects every other group of `size` bytes
 template <std::size_t size>
 void exchange_blocks(Matrices& rows, std::uint64_t low) {
   for (std::size_t row = 0; row < rows.size(); row += row % size == size - 1 ? size + 1 : 1) {
@@ -64,14 +65,15 @@ void exchange_blocks(Matrices& rows, std::uint64_t low) {
   }
 }
 
-/// Makes byte i of row j byte j of row i.
+/// Transposes each of the eight matrices: byte i of row j becomes byte j of row i.
 void transpose(Matrices& rows) {
   exchange_blocks<1>(rows, 0x00ff00ff00ff00ff);
   exchange_blocks<2>(rows, 0x0000ffff0000ffff);
   exchange_blocks<4>(rows, 0x00000000ffffffff);
 }
 
-/// Shuffles elements of eight bytes, as many as are a multiple of 64. @returns their number
+/// Shuffles elements of eight bytes: byte b of element i moves to position b·count + i. Only the largest
+/// multiple of 64 elements is processed. @returns the number of elements processed
 std::size_t shuffle_eight(std::span<const std::byte> elements, std::size_t count, std::byte* to) {
   Matrices rows{};
   std::size_t first = 0;
@@ -121,11 +123,11 @@ void unshuffle(std::size_t element_size, std::span<const std::byte> shuffled, st
 
 constexpr std::size_t page = 4096;
 
-/// Whether deflate could hardly compress the first page. Its bytes are neither more even than random ones nor
-/// so uneven that a code of them would save a twentieth: the χ² of their frequencies is 255 ± 23 for random
-/// ones, and up to 1300 for the last digits of a rounded product or exponential. Neighbours are seldom equal,
-/// and its start does not recur within the distance at which deflate finds repetitions. (Each design point
-/// repeats the draws of the one before.)
+/// Whether the first page of `bytes` looks random, so that deflate could hardly compress it. Its byte
+/// frequencies are neither more even than random ones nor so uneven that a code of them would save a
+/// twentieth: their χ² is 255 ± 23 for random bytes, and up to 1300 for the last digits of a rounded product
+/// or exponential. Neighbours are seldom equal, and its start does not recur within the distance at which
+/// deflate finds repetitions. (Each design point repeats the draws of the one before.)
 bool starts_randomly(std::span<const std::byte> bytes) {
   std::array<std::uint32_t, 256> counts{};
   std::size_t equal_neighbours = 0;  // 16 ± 4 of random bytes
@@ -143,16 +145,16 @@ bool starts_randomly(std::span<const std::byte> bytes) {
   return text.find(text.substr(0, sample), 1) == std::string_view::npos;
 }
 
-/// Length of the pages at the front that look random. After shuffle, these pages hold the low digits of
-/// doubles.
+/// Number of bytes at the front, in whole pages, that look random. After the shuffle filter, these pages hold
+/// the low digits of doubles.
 std::size_t random_front(std::span<const std::byte> bytes) {
   std::size_t length = 0;
   while (length + page <= bytes.size() && starts_randomly(bytes.subspan(length))) length += page;
   return length;
 }
 
-/// Appends a stored block of deflate, not the last, to a stream that ends at a whole byte (RFC 1951, section
-/// 3.2.4).
+/// Appends `bytes` uncompressed, as a "stored" block of the deflate format that is not the last, to a stream
+/// that ends at a whole byte (RFC 1951, section 3.2.4).
 void append_stored_block(std::vector<std::byte>& stream, std::span<const std::byte> bytes) {
   const auto size = static_cast<unsigned>(bytes.size());
   for (const unsigned byte : {0U, size & 0xffU, size >> 8U, ~size & 0xffU, ~size >> 8U & 0xffU})
@@ -160,8 +162,8 @@ void append_stored_block(std::vector<std::byte>& stream, std::span<const std::by
   stream.insert(stream.end(), bytes.begin(), bytes.end());
 }
 
-/// A zlib stream (RFC 1950), as the deflate filter of HDF5 reads it. Random bytes at the front are stored:
-/// compressing them would take most of the time and save nothing.
+/// Compresses bytes to a zlib stream (RFC 1950), as the deflate filter of HDF5 reads it. Random bytes at the
+/// front are stored uncompressed: compressing them would take most of the time and save nothing.
 std::vector<std::byte> deflate(std::span<const std::byte> bytes, int level) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(level), libdeflate_free_compressor);
@@ -193,7 +195,8 @@ bool inflate(std::span<const std::byte> stream, std::span<std::byte> bytes) {
                                     bytes.size(), nullptr) == LIBDEFLATE_SUCCESS;
 }
 
-/// Restores the elements of a chunk without its checksum. False if they are not those bytes.
+/// Undoes the filters of a chunk except its checksum. @returns false if the bytes do not decode to
+/// elements.size() bytes.
 bool decode(const ChunkFilters& filters, std::span<const std::byte> bytes, std::span<std::byte> elements) {
   if (filters.deflate_level) {
     std::vector<std::byte> shuffled(elements.size());

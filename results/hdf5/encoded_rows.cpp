@@ -17,7 +17,7 @@ namespace zerocount::hdf5 {
 
 namespace {
 
-/// A chunk to encode.
+/// A chunk (stored block of a dataset) that a thread encodes.
 struct EncodeJob {
   const ChunkShape* shape;
   std::span<const std::byte> elements;
@@ -127,11 +127,11 @@ std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all, timeline
 
 namespace {
 
-/// A chunk to decode.
+/// A chunk (stored block of a dataset) that a thread decodes.
 struct DecodeJob {
   const FetchedRows* rows;
-  std::size_t chunk;    ///< Index in rows->chunks
-  std::byte* elements;  ///< Buffer for the elements of all rows
+  std::size_t chunk;    ///< Index of the chunk in rows->chunks
+  std::byte* elements;  ///< Buffer for the decoded elements of all rows
   bool damaged{false};
 
   void decode();

@@ -23,13 +23,13 @@ constexpr herr_t success = 0;
 constexpr herr_t failure = -1;
 constexpr haddr_t max_address = (haddr_t{1} << 63) - 1;
 
-/// The library's handle of an open file.
+/// The HDF5 library's handle of a file that this driver has opened.
 struct DriverFile : H5FD_t {
   std::shared_ptr<storage::ByteFile> bytes;
   haddr_t allocated{0};  ///< End of the address space that the library has allocated
 };
 
-/// Data that access_properties() passes to open_file().
+/// Data that access_properties() passes to the driver's open_file().
 struct DriverInfo {
   const std::shared_ptr<storage::ByteFile>* bytes{nullptr};
 };
@@ -54,7 +54,8 @@ herr_t close_file(H5FD_t* file) {
   return success;
 }
 
-/// The features of the library's default driver (sec2), so that the library lays out files in the same way.
+/// Reports to the HDF5 library the features of this driver: those of its default driver (sec2), so that it
+/// lays out files in the same way.
 herr_t query(const H5FD_t*, unsigned long* flags) {
   *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
            H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;

@@ -22,7 +22,7 @@
 /// exits with machine_failed. A file *.part may remain; the next command removes it.
 namespace zerocount::hdf5 {
 
-/// Access property list of the file `bytes`.
+/// Creates the HDF5 access property list by which the library opens the file `bytes` through this driver.
 ///
 /// Object headers have version 2: they have checksums, and readers built on HDF5 1.8 can read them. The
 /// library's own file locks are off: finished files never change, and the locks fail on some cluster file
@@ -30,8 +30,9 @@ namespace zerocount::hdf5 {
 /// @param bytes must stay valid until the file is open; the library holds a shared pointer from then on
 Handle access_properties(const std::shared_ptr<storage::ByteFile>& bytes);
 
-/// While it lives, this thread's reads of raw data are noted instead of done: the library says where the
-/// bytes of a chunk are by asking for them, and leaves its buffer as it is.
+/// Finds out where the file stores a chunk. While an object of this class lives, the reads of dataset
+/// elements by this thread are noted and not done: the library reveals the position of the bytes by asking
+/// for them, and leaves its buffer as it is.
 class ReadNote {
  public:
   ReadNote();
@@ -39,8 +40,14 @@ class ReadNote {
   ReadNote& operator=(const ReadNote&) = delete;
   ~ReadNote();
 
-  std::uint64_t address() const { return address_; }  ///< Address of the last read
-  std::size_t size() const { return size_; }          ///< Size of the last read, bytes; 0 without a read
+  std::uint64_t address() const {
+    return address_;
+  }  ///< Position in the file of the last read that was
+     ///< noted, bytes from its beginning
+  std::size_t size() const {
+    return size_;
+  }  ///< Size of the last read that was noted, bytes; 0 if
+     ///< there was none
   void set(std::uint64_t address, std::size_t size) {
     address_ = address;
     size_ = size;

@@ -28,14 +28,15 @@ namespace {
 constexpr rlim_t max_cpu_time = 20;  // s
 constexpr unsigned max_time = 120;   // s, of the disk too
 
-/// Bytes of an attribute, or of the references to the texts of a dataset.
+/// Largest size of an attribute, or of the references to a dataset's texts, that the child process reads,
+/// bytes
 constexpr std::size_t max_bytes = 256U << 20U;
 
-/// Signals of a crash. SIGXCPU: the time limit.
+/// Signals that mean that the child process has crashed. SIGXCPU: it has exceeded its processor time.
 constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU};
 
-/// Room for elements as they stand in the file; none for more than the child should read. Texts need not be
-/// freed in a process that ends.
+/// Allocates a buffer for elements of the type as they stand in the file; empty if it would be larger than
+/// the child process should read. Texts need not be freed in a process that ends.
 std::vector<std::byte> room_for(Id type, hssize_t elements) {
   const std::size_t size = H5Tget_size(type);
   if (size == 0 || elements <= 0 || static_cast<std::size_t>(elements) > max_bytes / size) return {};
@@ -51,7 +52,7 @@ herr_t read_attribute(Id object, const char* name, const H5A_info_t*, void*) {
   return 0;
 }
 
-/// Reads all texts of a dataset, or the first element of numbers.
+/// Reads, to provoke a crash, all texts of a dataset, or its first element if it holds numbers.
 void read_dataset(Id dataset) {
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const Handle space(H5Dget_space(dataset), H5Sclose);
@@ -84,8 +85,8 @@ class UntrustedFile : public File {
   }
 };
 
-/// Reads the file in the child process. Only a crash matters, because the parent finds other errors again and
-/// reports them.
+/// Reads the file in the child process and ends the process. Only a crash matters, because the parent process
+/// finds other errors again and reports them.
 [[noreturn]] void read_and_exit(const std::filesystem::path& path, pid_t parent) {
   // The child has the parent's locks: it must not outlive it, or the same command could not go on.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -106,8 +107,8 @@ class UntrustedFile : public File {
   _exit(EXIT_SUCCESS);
 }
 
-/// The allocators of clang 14's sanitizers are not prepared for fork: the child waits for ever if another
-/// thread was in one of them.
+/// Whether a child process can be made by fork(). The allocators of clang 14's sanitizers are not prepared
+/// for fork: the child would wait for ever if another thread was in one of them.
 bool can_fork() {
 #ifdef ZEROCOUNT_SANITIZED
   const std::filesystem::directory_iterator threads("/proc/self/task");

@@ -32,10 +32,11 @@ class Timeline;
 /// the library is not called again for that file: its handles stay open until the process ends.
 namespace zerocount::hdf5 {
 
-using Id = std::int64_t;          ///< An identifier of the library, its hid_t
-using Size = unsigned long long;  ///< a number of elements, the library's hsize_t
+using Id = std::int64_t;          ///< An identifier of an object in the HDF5 library, its type hid_t
+using Size = unsigned long long;  ///< A number of elements or a length of a dimension in the HDF5 library,
+                                  ///< its type hsize_t
 
-/// An identifier of the library that the destructor closes.
+/// Owner of an identifier of the HDF5 library; the destructor closes the identifier.
 class Handle {
  public:
   using Close = int (*)(Id);
@@ -49,7 +50,8 @@ class Handle {
   ~Handle() { close(); }
 
   Id get() const { return id_; }
-  bool close();    ///< Returns false if the library reports a failure. A second call does nothing.
+  bool close();    ///< Closes the identifier. Returns false if the HDF5 library reports a failure. A second
+                   ///< call does nothing.
   void abandon();  ///< Gives the identifier up without closing it.
 
  private:
@@ -59,10 +61,10 @@ class Handle {
   Close close_{nullptr};
 };
 
-/// The file that objects belong to.
+/// The open HDF5 file to which an object belongs, shared by all its objects.
 struct Origin;
 
-/// A group or a dataset: something with a path and attributes.
+/// A group or a dataset of an HDF5 file: something with a path and attributes.
 class Object {
  public:
   Object(Object&& other) noexcept = default;
@@ -78,7 +80,8 @@ class Object {
   void set_text(const std::string& name, const std::string& value);
   void set_integer(const std::string& name, std::int64_t value);
   void set_unsigned(const std::string& name, std::uint64_t value);
-  /// A 1-D attribute with elements of type `element` (an integer type).
+  /// Writes a one-dimensional attribute of integers to the object. @param element type of the elements in the
+  /// file, an integer type.
   void set_integers(const std::string& name, Element element, std::span<const std::int64_t> values);
 
   std::string text(const std::string& name) const;
@@ -86,7 +89,8 @@ class Object {
   std::uint64_t unsigned_integer(const std::string& name) const;
   std::vector<std::int64_t> integers(const std::string& name) const;
 
-  /// Throws the Failure for this object; `problem` completes "damaged: ".
+  /// Throws the Failure for a damaged or unusable object, with file and path in its message; `problem`
+  /// completes the message "damaged: ".
   [[noreturn]] void fail(std::string_view problem) const;
 
  protected:
@@ -95,10 +99,11 @@ class Object {
 
   Id id() const { return handle_.get(); }
   const std::shared_ptr<Origin>& origin() const { return origin_; }
-  /// Takes the identifier that an operation returned; throws the Failure if it is invalid or a write has
-  /// failed.
+  /// Takes over the identifier that an operation of the HDF5 library returned. Throws the Failure with the
+  /// text `problem` if the identifier is invalid or a write has failed.
   Handle own(Id id, Handle::Close close, std::string_view problem) const;
-  /// Throws the Failure if an operation returned a negative status or a write has failed.
+  /// Throws the Failure with the text `problem` if an operation of the HDF5 library returned a negative
+  /// status, or a write has failed.
   void require(int status, std::string_view problem) const;
   void release() noexcept;  ///< Closes the object; a failure is kept for File::close.
 
@@ -106,7 +111,8 @@ class Object {
   void write_attribute(const std::string& name, Id file_type, Id memory_type, Id space, const void* data);
   Handle open_attribute(const std::string& name) const;
   void write_single(const std::string& name, Id file_type, Id memory_type, const void* data);
-  /// Reads an attribute with one value; `kind` completes "the attribute is not a ".
+  /// Reads an attribute with one value into `data`; `kind` completes the error message "the attribute is not
+  /// a ".
   void read_single(const std::string& name, Id memory_type, void* data, std::string_view kind) const;
 
   std::shared_ptr<Origin> origin_;
@@ -114,12 +120,13 @@ class Object {
   std::string path_;
 };
 
-/// Storage of a new dataset.
+/// Type, size and storage form of a new dataset.
 struct Storage {
   Element element{Element::float64};
-  std::vector<Size> extent;  ///< Sizes of the dimensions; empty: a scalar
-  std::vector<Size> chunk;   ///< Sizes of a chunk, one per dimension, each at least 1
-  bool extendible{false};    ///< The first dimension can grow.
+  std::vector<Size> extent;  ///< Lengths along the dimensions, in elements; empty: a single value
+  std::vector<Size> chunk;   ///< Lengths of a chunk, the block in which the file stores the elements: one per
+                             ///< dimension, each at least 1
+  bool extendible{false};    ///< Whether the first dimension can grow later
   Compression compression{Compression::deflate};
 };
 
@@ -127,24 +134,28 @@ struct RowsToWrite;
 struct EncodedRows;
 struct FetchedRows;
 
-/// Chunks of whole rows.
+/// Shape of a dataset's chunks, the blocks in which the file stores it. Each chunk consists of whole rows;
+/// the first dimension counts the rows.
 struct ChunkShape {
   std::int64_t rows{0};
-  std::size_t row_size{0};  ///< Size of the elements of a row, bytes
+  std::size_t row_size{0};  ///< Size of one row in memory, bytes
   ChunkFilters filters;
   std::size_t dimensions{1};  ///< Number of dimensions of the dataset
 
   bool operator==(const ChunkShape&) const = default;
 };
 
-/// A chunk as the file stores it.
+/// Position and bytes of one chunk, a stored block of a dataset, in the file.
 struct StoredChunk {
-  std::uint64_t address{0};        ///< Address in the file
-  std::size_t size{0};             ///< Size, bytes; 0: the library must read the chunk
-  std::vector<std::byte> bytes{};  ///< Stored bytes, if the library has read them
+  std::uint64_t address{0};        ///< Position of the chunk in the file, bytes from its beginning
+  std::size_t size{0};             ///< Size of the stored chunk, bytes; 0: the chunk must be read by the HDF5
+                                   ///< library
+  std::vector<std::byte> bytes{};  ///< Stored bytes of the chunk, if the HDF5 library has read them;
+                                   ///< otherwise empty
 };
 
-/// Rows of elements in chunks that can be read: a dataset, or a column of a shard.
+/// Source of rows of elements that are stored in chunks and can be read: a dataset of a results file, or a
+/// column of a shard.
 class RowSource {
  public:
   RowSource() = default;
@@ -153,22 +164,25 @@ class RowSource {
   virtual ~RowSource() = default;
 
   virtual Element element() const = 0;
-  /// The chunks that hold the rows, for decode_rows(). The source must live until then.
+  /// Finds the chunks that hold the rows [first, first + rows), for decode_rows(). The source must live until
+  /// they are decoded.
   virtual FetchedRows fetch(std::int64_t first, std::int64_t rows) const = 0;
-  /// The stored bytes of a chunk. Any thread may call this while the file stays open, because it does not
-  /// call the library.
+  /// The stored bytes of a chunk. Reads them from the file unless `chunk` has them already. Any thread may
+  /// call this while the file stays open, because it does not call the HDF5 library.
   virtual std::vector<std::byte> bytes_of(StoredChunk&& chunk) const = 0;
-  /// Throws the Failure for this source; `problem` completes "damaged: ".
+  /// Throws the Failure for damaged contents of this source; `problem` completes the message "damaged: ".
   [[noreturn]] void fail(std::string_view problem) const {
     fail_with(problem);
     std::terminate();  // not reached
   }
 
-  /// Rows [first, first + rows) of the first dimension, whole in the others, as elements of type element().
+  /// Reads the rows [first, first + rows) of the first dimension, whole in the others, into `data`, as
+  /// elements of type element().
   void read(std::int64_t first, std::int64_t rows, void* data) const;
 
  private:
-  virtual void fail_with(std::string_view problem) const = 0;  ///< throws
+  /// Throws the Failure for damaged contents, with `problem` in its message
+  virtual void fail_with(std::string_view problem) const = 0;
 };
 
 class Dataset : public Object, public RowSource {
@@ -176,17 +190,19 @@ class Dataset : public Object, public RowSource {
   Element element() const override { return element_; }
   std::vector<Size> extent() const;
 
-  /// Rows [first, first + rows) of the first dimension, whole in the others; `data` holds elements of type
-  /// element(). For several datasets at a time: encoded_rows.hpp.
+  /// Writes the rows [first, first + rows) of the first dimension, whole in the others, from `data`, which
+  /// holds elements of type element(). To write to several datasets at a time, see encoded_rows.hpp.
   void write(std::int64_t first, std::int64_t rows, const void* data);
   FetchedRows fetch(std::int64_t first, std::int64_t rows) const override;
   std::vector<std::byte> bytes_of(StoredChunk&& chunk) const override;
   using Object::fail;
-  /// Stores the chunks of rows that were encoded for such a dataset, from row `first` on.
+  /// Writes encoded rows to the dataset, from row `first` on, chunk by chunk. The rows must have been encoded
+  /// for a dataset with the same chunks.
   void write(std::int64_t first, const EncodedRows& encoded);
 
-  /// Shape of the chunks. Empty if the dataset has no chunks, a chunk does not span whole rows, the dataset
-  /// holds texts, its filters are not those of chunk_filters.hpp, or the processor is not little-endian.
+  /// Shape of the dataset's chunks, the blocks in which it is stored. Empty if the dataset has no chunks, a
+  /// chunk does not span whole rows, the dataset holds texts, its filters are not those of chunk_filters.hpp,
+  /// or the processor is not little-endian.
   const std::optional<ChunkShape>& chunk_shape() const;
 
   void write_texts(std::span<const std::string> texts);
@@ -210,15 +226,16 @@ class Dataset : public Object, public RowSource {
   void write_by_library(std::int64_t first, std::int64_t rows, const void* data);
   void read_by_library(std::int64_t first, std::int64_t rows, void* data) const;
 
-  /// Finds the chunk that begins at this row. Its size is 0 if it was never written, or a filter was left out
-  /// because it did not fit.
+  /// Finds the stored chunk that begins at row `first`. Its size is 0 if it was never written, or if a filter
+  /// was left out for it.
   StoredChunk find_chunk(std::int64_t first) const;
   void store_chunk(std::int64_t first, std::span<const std::byte> stored);
-  std::vector<Size> place_of(std::int64_t first) const;  ///< Coordinates of the first element of a row.
+  std::vector<Size> place_of(std::int64_t first) const;  ///< Coordinates of the first element of row `first`,
+                                                         ///< one per dimension: (first, 0, 0, …)
   std::optional<ChunkShape> read_chunk_shape() const;
 
   Element element_;
-  /// Shape of the chunks, once it has been read.
+  /// Result of chunk_shape(), once it has been read; until then empty
   mutable std::optional<std::optional<ChunkShape>> chunk_shape_{};
 };
 
@@ -229,8 +246,8 @@ class Group : public Object {
   Dataset create_dataset(const std::string& name, const Storage& storage);
   Dataset open_dataset(const std::string& name) const;
   bool contains(const std::string& name) const;
-  bool is_group(const std::string& name) const;  ///< Whether a member is a group, not a dataset
-  std::vector<std::string> children() const;     ///< Names of the members, in order of creation
+  bool is_group(const std::string& name) const;  ///< Whether the member `name` is a group, not a dataset
+  std::vector<std::string> children() const;     ///< Names of the members of the group, in order of creation
 
  protected:
   Group(Handle handle, std::shared_ptr<Origin> origin, std::string path)
@@ -242,17 +259,18 @@ class Group : public Object {
 /// @throws Failure (machine_failed) with the path and the reason if it cannot be read.
 bool is_hdf5(const std::filesystem::path& path);
 
-/// An open file, which is its root group.
+/// An open HDF5 file, used as its own root group.
 class File : public Group {
  public:
   File(File&& other) noexcept = default;
   File& operator=(File&& other) = delete;
   ~File();
 
-  /// A new file at `path`; replaces an existing file.
+  /// Creates a new HDF5 file at `path`; replaces an existing file.
   static File create(const std::filesystem::path& path);
   static File open_to_read(const std::filesystem::path& path);
-  /// @param so_far bytes written to the file earlier; close() returns them together with the new ones.
+  /// Opens an existing HDF5 file for reading and writing. @param so_far bytes written to the file earlier;
+  /// close() returns them together with the new ones.
   static File open_to_change(const std::filesystem::path& path, storage::WrittenBytes so_far = {});
 
   /// Closes the file, and flushes it to the disk unless that is left to the caller. All other objects of the

@@ -15,8 +15,8 @@
 namespace zerocount::hdf5 {
 namespace {
 
-/// Whether the rows [first, first + rows) of a dataset are whole chunks; otherwise the library must divide
-/// chunks, or apply filters other than ours.
+/// Whether the rows [first, first + rows) of a dataset are whole chunks with known filters. Otherwise the
+/// HDF5 library must divide chunks, or apply filters other than those of chunk_filters.hpp.
 bool has_whole_chunks(const Dataset& dataset, std::int64_t first, std::int64_t rows) {
   const std::optional<ChunkShape>& shape = dataset.chunk_shape();
   return shape && rows > 0 && first % shape->rows == 0 &&

@@ -23,21 +23,22 @@ static_assert(std::is_same_v<Id, hid_t> && std::is_same_v<Size, hsize_t> && std:
 
 struct Origin {
   std::shared_ptr<storage::ByteFile> bytes;
-  bool incomplete{false};  ///< A write operation or the closing of an object has failed.
+  bool incomplete{false};  ///< Whether a write operation, or the closing of an object, has failed
 
-  /// The library must not be called again: see file_driver.hpp.
+  /// Whether a write to the file has failed, so that the HDF5 library must not be called again for this file
+  /// (see file_driver.hpp).
   bool broken() const { return bytes->writable() && (incomplete || bytes->failure()); }
 };
 
-/// Throws the Failure for the object `path` of a file after a failed operation.
+/// Throws the Failure for the object `path` of an HDF5 file after a failed operation; `problem` describes it.
 [[noreturn]] void fail_on(Origin& origin, const std::string& path, std::string_view problem);
 
-/// Takes the identifier of a new type, dataspace or property list; throws the Failure if the library could
-/// not create it.
+/// Takes over the identifier of a new type, dataspace or property list of the HDF5 library; throws the
+/// Failure if the library could not create it.
 Handle made(Id id, Handle::Close close);
 void demand(herr_t status);
 
-/// Types of the library for numbers; for texts see text_type().
+/// The HDF5 library's types of a number in the file and in memory; for texts see text_type().
 struct NumberTypes {
   Id file;
   Id memory;
@@ -45,23 +46,26 @@ struct NumberTypes {
 NumberTypes types_of(Element element);
 Handle text_type();
 
-/// Level of deflate. The inputs of trials are random digits: higher levels take longer and do not compress
-/// them better.
+/// Compression level of the deflate filter. The inputs of trials have random digits: higher levels take
+/// longer and do not compress them better.
 inline constexpr int deflate_level = 1;
 
-/// Properties of a new file, group or dataset: creation order tracked, no times.
+/// HDF5 properties for creating a file, group or dataset: the order of creation is recorded, times are not.
+/// @param kind property list class of the library.
 Handle creation_properties(Id kind);
 
 inline constexpr std::string_view unreadable_values = "its values cannot be read or their checksum is wrong";
 
-/// @throws Failure (bad_data) with the filter's name and the remedy if a dataset is stored through a filter
-/// that the library does not have. @param file, path name the dataset in the message
+/// Checks that the library has all filters through which a dataset is stored.
+/// @throws Failure (bad_data) with the filter's name and the remedy if it lacks one. @param file, path name
+/// the dataset in the message.
 void require_known_filters(Id dataset, const std::string& file, const std::string& path);
 
-/// Bytes of a row of a dataset with this extent: its first dimension counts the rows.
+/// Size in memory (bytes) of one row of a dataset with these lengths; its first dimension counts the rows.
 std::size_t row_size(Element element, std::span<const Size> extent);
 
-/// Calls `work` for each index below `count`, several at a time; `timeline` gets their spans as `name`.
+/// Calls `work` for each index from 0 to count − 1, several at a time on several threads. @param timeline
+/// records the work under the name `name`; null: no record.
 void for_each_job(std::size_t count, timeline::Timeline* timeline, std::string_view name,
                   const std::function<void(std::size_t)>& work);
 

@@ -19,7 +19,7 @@ namespace {
 
 std::atomic<std::thread::id> user{};  // of the library of this process
 
-/// Turns off the library's messages on stderr, and its exit handler, which would repeat failed writes.
+/// Turns off the HDF5 library's messages on stderr, and its exit handler, which would repeat failed writes.
 void quieten() {
   static const herr_t no_work_at_exit = H5dont_atexit();
   static_cast<void>(no_work_at_exit);
@@ -51,8 +51,8 @@ std::shared_ptr<Origin> origin_of(const std::filesystem::path& path, Mode mode,
       Origin{std::make_shared<storage::ByteFile>(path, mode, std::move(so_far)), false});
 }
 
-/// True if a file of `bytes` bytes can hold all elements. A reader that trusts a size beyond that runs out of
-/// memory.
+/// Whether a file of `bytes` bytes can hold all elements that the dataset claims to have. A reader that
+/// trusts a larger size runs out of memory.
 bool fits(const Dataset& dataset, std::uint64_t bytes) {
   constexpr Size max_ratio = 1100;     // deflate makes at most 1032 bytes of one
   constexpr Size text_reference = 16;  // of a text, which is elsewhere in the file

@@ -2,11 +2,11 @@
 
 namespace zerocount::hdf5 {
 
-/// A use of the HDF5 library, which is not made for threads: it has one state for all files. Uses of one
-/// thread may be inside each other.
+/// Guard for a use of the HDF5 library, which is not thread-safe: it has one state for all files. The library
+/// counts as used while an object of this class lives. One thread may nest several uses.
 class LibraryUse {
  public:
-  /// @throws std::logic_error while another thread uses the library
+  /// Begins a use of the library. @throws std::logic_error while another thread uses the library
   LibraryUse();
   LibraryUse(const LibraryUse&) = delete;
   LibraryUse& operator=(const LibraryUse&) = delete;

@@ -15,7 +15,8 @@
 
 namespace zerocount::layout {
 
-/// Type of the elements in a column's buffer for a member of type Value (see Element).
+/// Type in which a value of type Value is stored in a column: std::uint8_t for bool, std::int8_t for
+/// enumerations, otherwise Value itself.
 template <class Value>
 using Stored = std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t,
                                   std::conditional_t<std::is_enum_v<Value>, std::int8_t, Value>>;
@@ -33,8 +34,8 @@ constexpr hdf5::Element element_of() {
   return hdf5::Element::int8;
 }
 
-/// A field of a record.
-/// @param member member of Record or of a base of it, or a function of the record.
+/// Creates the description of one field of a record: its name, unit, meaning and valid values.
+/// @param member member of Record or of a base of it, or a function of the record, which gives the value.
 template <class Record, class Member>
 RecordField<Record> field(const char* name, const char* unit, const char* long_name, Member member,
                           const ValidValues& valid = {}, std::vector<FlagMeaning> flags = {}) {
@@ -48,14 +49,14 @@ RecordField<Record> field(const char* name, const char* unit, const char* long_n
   }
 }
 
-/// The value of a field, whatever its type in the file.
+/// The value of a field in a record, as a double, whatever its type in the file.
 template <class Record>
 double value_of(const RecordField<Record>& field, const Record& record) {
   return std::visit([&](auto member) { return static_cast<double>(std::invoke(member, record)); },
                     field.member);
 }
 
-/// The values of a field of the records.
+/// Copies the values of one field of all records to `values`, as doubles.
 template <class Record>
 void values_of(const RecordField<Record>& field, std::span<const Record* const> records,
                std::span<double> values) {
@@ -68,8 +69,8 @@ void values_of(const RecordField<Record>& field, std::span<const Record* const> 
       field.member);
 }
 
-/// Whether the field is a function of the other fields. It is written to files, and computed again when a
-/// record is read.
+/// Whether the field's value is a function of the record's other fields. Such a field is written to files,
+/// and computed again when a record is read.
 template <class Record>
 bool is_computed(const RecordField<Record>& field) {
   return std::holds_alternative<double (*)(const Record&)>(field.member);
@@ -83,7 +84,7 @@ std::vector<const Record*> pointers_to(const std::vector<Record>& records) {
   return pointers;
 }
 
-/// Writes a field of the records to `to`, as the bytes of its elements.
+/// Copies the values of one field of all records to `to`, in the bytes of a file column's elements.
 template <class Record>
 void gather(const RecordField<Record>& field, std::span<const Record* const> records, std::byte* to) {
   std::visit(
@@ -101,7 +102,7 @@ void gather(const RecordField<Record>& field, std::span<const Record* const> rec
 /// Number of records copied at a time, few enough to stay in the cache while all of their fields are copied.
 inline constexpr std::size_t records_at_a_time = 32;
 
-/// The columns of the records, [field], each as the bytes of its elements.
+/// Copies the records to columns, [field], each as the bytes of its elements.
 template <class Record>
 std::vector<std::vector<std::byte>> columns_of(const std::vector<RecordField<Record>>& fields,
                                                std::span<const Record* const> records) {
@@ -117,7 +118,7 @@ std::vector<std::vector<std::byte>> columns_of(const std::vector<RecordField<Rec
   return columns;
 }
 
-/// Reads a field of the records from the bytes that gather() wrote. A computed field is not read.
+/// Reads one field of all records from the bytes that gather() wrote. A computed field is not read.
 template <class Record>
 void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes, std::span<Record> records) {
   std::visit(

@@ -44,7 +44,8 @@ std::string_view retention_label(study::Retention retention) {
   return keys::retention_labels[static_cast<std::size_t>(retention)];
 }
 
-/// Rejects a text with a zero byte, because it would silently be cut there.
+/// Returns `text` if it can be stored in the file. Rejects a text with a zero byte, because it would silently
+/// be cut there.
 const std::string& storable(const hdf5::File& file, const std::string& text) {
   if (text.find('\0') != std::string::npos) file.fail("a text with a zero byte cannot be stored");
   return text;

@@ -22,8 +22,8 @@
 /// test of the format's documentation (results/datasets.md) all derive.
 namespace zerocount::layout {
 
-/// A contiguous block of trials by global row: row = point·trials + index, so that the trials of a point are
-/// neighbours.
+/// A contiguous range of trials by their global rows: row = point·trials + index, so that the trials of a
+/// design point are neighbours.
 struct RowRange {
   std::int64_t first{0};
   std::int64_t count{0};
@@ -32,62 +32,70 @@ struct RowRange {
   bool operator==(const RowRange&) const = default;
 };
 
-/// Number of rows of all `ranges`.
+/// Total number of rows in all `ranges`.
 inline std::int64_t total_rows(std::span<const RowRange> ranges) {
   std::int64_t rows = 0;
   for (const RowRange& range : ranges) rows += range.count;
   return rows;
 }
 
-/// Version of the layout. Files of any other version are refused.
+/// Version of the results file format that this program writes and reads. Files of any other version are
+/// refused.
 inline constexpr std::int64_t format_version = 5;
 
-/// One value of an enumeration, and its word in `flag_meanings` and in CSV.
+/// One value of an enumeration, and the word for it in the attribute `flag_meanings` and in CSV files.
 struct FlagMeaning {
   std::int64_t value{0};
   std::string word;
 };
 
-/// The outcomes of a move.
+/// The possible outcomes of a move, with their numbers and words in files.
 std::vector<FlagMeaning> outcome_labels();
 
-/// One dataset of a table.
+/// Description of one dataset (column) of a table in a results file.
 struct Column {
-  std::string name;       ///< Path below the table's group
-  std::string unit;       ///< Unit; "1" if dimensionless
-  std::string long_name;  ///< Description in one line
+  std::string name;       ///< Path of the dataset below the table's group
+  std::string unit;       ///< Unit of the values; "1" if dimensionless
+  std::string long_name;  ///< Meaning of the values, in one line
   hdf5::Element element{hdf5::Element::float64};
-  std::vector<FlagMeaning> flags{};  ///< Values of an enumeration; otherwise empty
-  std::string role{};  ///< Role of a column of /point: "axis" or "statistic"; empty in other tables
+  std::vector<FlagMeaning> flags{};  ///< Values of an enumeration with their words; empty if the column is
+                                     ///< not an enumeration
+  std::string role{};  ///< Role of a column of the table /point: "axis" (a swept parameter) or "statistic";
+                       ///< empty in other tables
 };
 
-/// The label of `value` in an enumeration; the number as text if the enumeration has no such value.
+/// The word for `value` in a column that is an enumeration; the number as text if the enumeration has no such
+/// value.
 std::string value_text(const Column& column, std::int64_t value);
 
-/// The last dimension of the columns of a table, if its scale stands in the root.
+/// The last dimension of a table's columns, if its HDF5 dimension scale stands in the file's root: error
+/// bands or tolerances.
 struct RootDimension {
   Column scale;
-  std::vector<double> values;  ///< Stored as the scale's element
+  std::vector<double> values;  ///< Values of the dimension scale, stored as its element type
 };
 
-/// A group of columns that share their first dimension, and the dimension scales that stand in it.
+/// Description of a group of columns in a results file that share their first dimension, with the dimension
+/// scales that stand in it.
 struct Table {
-  std::string group;             ///< Path of the group from the root
-  Column rows;                   ///< Dimension scale of the first dimension
-  std::optional<Column> second;  ///< Dimension scale of the second dimension of all columns
+  std::string group;             ///< Path of the HDF5 group from the file's root
+  Column rows;                   ///< Dimension scale of the first dimension, the rows
+  std::optional<Column> second;  ///< Dimension scale of the second dimension of all columns; empty if there
+                                 ///< is none
   std::vector<Column> columns;
-  std::optional<RootDimension> last{};  ///< Dimension after `rows` and `second`, of all columns
+  std::optional<RootDimension> last{};  ///< Dimension of all columns after `rows` and `second`; empty if
+                                        ///< there is none
 };
 
-/// The values that a column can have. A file with any other is damaged.
+/// The values that a column of a results file may have. A file with any other value counts as damaged.
 struct ValidValues {
   std::string_view expected{};  ///< Possible values in words; empty if every value is possible
-  double low{0.0};              ///< Lowest value
+  double low{0.0};              ///< Lowest possible value
   double high{std::numeric_limits<double>::max()};
-  bool nan{false};  ///< NaN is possible.
+  bool nan{false};  ///< Whether NaN is possible
 };
 
-/// Source of a column's value: a member of the record, or a function of the record.
+/// Source of a column's value: a data member of the record, or a function of the record.
 template <class Record>
 using Member = std::variant<double Record::*, std::int64_t Record::*, int Record::*, bool Record::*,
                             trial::Outcome Record::*, trial::HookMode Record::*, loop::ControlPhase Record::*,
@@ -101,151 +109,170 @@ struct RecordField {
 };
 
 struct Measure;
-/// The measures of a move, in the order of the file (see measure_table.hpp).
+/// The measures of a move (such as its arrival time), in the order of the file (see measure_table.hpp).
 using MeasureTable = std::vector<Measure>;
-/// The measures of this program, including the measures of the error bands and tolerances of these features.
+/// The measures of a move that this program has, including those of the error bands and tolerances in
+/// `features`.
 const MeasureTable& measure_table(const study::StudyFeatures& features = {});
 
-/// Measures of one tolerance of a move.
+/// Settling times of one move for one tolerance of the position error.
 struct ToleranceRecord {
-  double settling_time{0.0};        ///< Entry of MoveOutcome::tolerance_settling_times
-  double other_settling_time{0.0};  ///< Entry of MoveOutcome::other_tolerance_settling_times
+  double settling_time{0.0};        ///< Settling time of the mass that closes the loop, s (entry of
+                                    ///< MoveOutcome::tolerance_settling_times)
+  double other_settling_time{0.0};  ///< Settling time of the other mass, s (entry of
+                                    ///< MoveOutcome::other_tolerance_settling_times)
 };
 
-/// A jerk, and the trial it belongs to.
+/// A jerk (excursion of the error from zero after arrival), and the trial to which it belongs.
 struct JerkRecord : trial::Jerk {
-  std::int64_t trial{0};  ///< Global row
+  std::int64_t trial{0};  ///< Global row of the trial: point·trials + index
 };
 
-/// A sampling instant of a retained trial.
+/// One sampling instant of a trial whose samples are kept in the file.
 struct TraceRecord : trial::SampleRecord {
-  std::int64_t trial{0};  ///< Global row
+  std::int64_t trial{0};  ///< Global row of the trial: point·trials + index
 };
 
-/// The measures of a move that a file with these features has.
+/// Descriptions of the columns for all measures of a move that a file with these features has.
 std::vector<RecordField<trial::MoveOutcome>> outcome_fields(const study::StudyFeatures& features = {},
                                                             const MeasureTable& measures = measure_table());
-/// The measures of a move that are columns of outcome_table(): all except the measures of error bands and
+/// Descriptions of the columns of outcome_table(): the measures of a move except those of error bands and
 /// tolerances.
 std::vector<RecordField<trial::MoveOutcome>> move_fields(const study::StudyFeatures& features,
                                                          const MeasureTable& measures);
-/// The columns of band_table().
+/// Descriptions of the columns of band_table(), the measures of an error band.
 const std::vector<RecordField<trial::BandOutcome>>& band_fields();
 const std::vector<RecordField<JerkRecord>>& jerk_fields();
-/// The columns of a sample record. The columns that `features` add come last.
+/// Descriptions of the columns of a sample record (/trace). The columns that `features` add come last.
 std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& features);
 
-/// The columns of tolerance_table() for one tolerance: the settling time and, if the features ask for it, the
-/// settling time of the other mass.
+/// Descriptions of the columns of tolerance_table(): the settling time for a tolerance and, if the features
+/// ask for it, the settling time of the other mass.
 std::vector<RecordField<ToleranceRecord>> tolerance_fields(const study::StudyFeatures& features);
 
-/// "band_settling_time_p95[1]": the name of a number of an error band.
+/// Name of a statistic of an error band, with the band's limit (counts) in brackets:
+/// "band_settling_time_p95[1]".
 std::string name_of_band(std::string_view name, std::int64_t band);
-/// "tolerance_settling_time_p95[1e-08]": the name of a number of a tolerance.
+/// Name of a statistic of a tolerance of the position error, with the tolerance (rad or m) in brackets:
+/// "tolerance_settling_time_p95[1e-08]".
 std::string name_of_tolerance(std::string_view name, double tolerance);
 
-/// Whether the name is the name of a number of a tolerance, such as "load_tolerance_settling_time_p95". The
-/// tolerance itself may be missing at its end.
+/// Whether `name` names a measure or statistic of a tolerance, such as "load_tolerance_settling_time_p95".
+/// The tolerance in brackets at its end may be missing.
 inline bool is_of_tolerance(std::string_view name) {
   return name.find("tolerance_") != std::string_view::npos;
 }
 
-/// A column of statistics, made when a study is complete: one number per design point, or several where
-/// stated (StatisticTable, GroupCounts). In files, columns whose names differ only in the error band or
+/// A column of statistics, computed when a study is complete: one number per design point, or several where
+/// StatisticTable or GroupCounts say so. In files, columns whose names differ only in the error band or
 /// tolerance at their end, as in "band_settling_time_p95[1]", are one dataset [point, band].
 struct PointColumn {
   std::string name;
   std::string unit;
   std::string long_name;
-  std::vector<double> values;  ///< [point]; NaN where there is none
+  std::vector<double> values;  ///< Values, [point]; NaN where a point has no value
 };
 
-/// A group of statistics that have a second dimension beside the design point.
+/// A kind of statistics that have a second dimension beside the design point, such as the torque level.
 struct StatisticGroup {
-  std::string_view name;       ///< Name of the group in the root
-  std::string_view dimension;  ///< Name of the second dimension, and of its scale
+  std::string_view name;       ///< Name of the HDF5 group in the file's root
+  std::string_view dimension;  ///< Name of the second dimension, and of its HDF5 dimension scale
   std::string_view meaning;    ///< Meaning of an index of the second dimension, in one line
-  std::string_view csv;        ///< Name of the CSV file to which the group is exported
+  std::string_view csv;        ///< Name of the CSV file to which the statistics are exported
 };
 
-/// All groups of statistics that a file may have.
+/// All kinds of statistics with a second dimension that a results file may have.
 std::span<const StatisticGroup> statistic_groups();
-/// The statistics of the torque levels of an open-loop study.
+/// The kind of statistics that have one value per torque level of an open-loop study.
 const StatisticGroup& level_group();
 
-/// The statistics of one group.
+/// Statistics with a second dimension beside the design point, such as the torque level.
 struct StatisticTable {
-  const StatisticGroup* group{nullptr};  ///< Entry of statistic_groups()
-  std::int64_t width{1};                 ///< Size of the second dimension
-  std::vector<PointColumn> columns;      ///< Statistics, values[point·width + index]
+  const StatisticGroup* group{nullptr};  ///< Kind of the statistics, an entry of statistic_groups()
+  std::int64_t width{1};                 ///< Size of the second dimension, for instance the number of torque
+                                         ///< levels
+  std::vector<PointColumn> columns;      ///< The statistics; each column has values[point·width + index]
 };
 
-/// Trials of the groups of a grouping at the design points, [point][group].
+/// Counts of trials for the groups of a grouping (for instance the machines) at the design points,
+/// [point][group].
 struct GroupCounts {
-  std::vector<std::vector<std::int64_t>> trials;   ///< Trials that were judged; 0 in an open loop
-  std::vector<std::vector<std::int64_t>> success;  ///< Trials whose moves all ended with a zero count
-  /// Trials whose moves all meet the goal; empty without a goal
+  std::vector<std::vector<std::int64_t>> trials;   ///< Number of trials that were judged; 0 in an open-loop
+                                                   ///< study
+  std::vector<std::vector<std::int64_t>> success;  ///< Number of trials whose moves all ended with a zero
+                                                   ///< count
+  /// Number of trials whose moves all meet the goal; empty without a goal
   std::vector<std::vector<std::int64_t>> goal_met{};
-  std::vector<PointColumn> statistics{};  ///< Further statistics, values[point·groups + group]
+  std::vector<PointColumn> statistics{};  ///< Further statistics of the groups; each column has
+                                          ///< values[point·groups + group]
 };
 
-/// All stored statistics of consecutive design points of a study.
+/// All statistics that a file stores for some consecutive design points of a study.
 struct StoredStatistics {
   std::vector<PointColumn> points;
-  std::vector<StatisticTable> tables;                ///< Tables of statistics, at most one per group
-  std::map<std::string_view, GroupCounts> groups{};  ///< Counts by the name of the grouping (groupings.hpp)
+  std::vector<StatisticTable> tables;                ///< Statistics with a second dimension, at most one
+                                                     ///< table for each entry of statistic_groups()
+  std::map<std::string_view, GroupCounts> groups{};  ///< Counts of trials, by the name of the grouping such
+                                                     ///< as "machine" (groupings.hpp)
 };
 
-/// Number of angles over one revolution at which a profile is tabulated if all trials are on one rotor.
+/// Number of angles over one revolution at which a friction parameter's profile is tabulated in a file, if
+/// all trials are on one rotor.
 inline constexpr std::int64_t profile_angles = 4096;
 
-/// Number of angles of a profile if every machine has a rotor of its own: the smallest power of two with
-/// eight angles in the shortest wavelength of the field, from 64 to profile_angles. With many machines it is
-/// halved until there are at most 2²² values, as long as two angles remain in that wavelength.
+/// Number of angles at which a friction parameter's profile is tabulated in a file, if every machine has a
+/// rotor of its own: the smallest power of two with eight angles in the shortest wavelength of the field,
+/// from 64 to profile_angles. With many machines it is halved until there are at most 2²² values, as long as
+/// two angles remain in that wavelength.
 /// @param harmonics number of harmonics of the profile's series.
 std::int64_t profile_angles_of_machine(std::size_t harmonics, std::int64_t machines);
 
-/// The scale of the design points.
+/// Description of the HDF5 dimension scale that numbers the design points.
 Column point_scale();
-/// Columns that hold the values of parameters.
+/// Descriptions of the columns that hold the values of drawn input parameters.
 std::vector<Column> input_columns(const std::vector<study::InputColumn>& inputs);
 Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics);
 Column statistic_column(const PointColumn& statistic);
-/// Statistics of the design points for each error band, or tolerance: [point, band]. It has no columns yet.
+/// Description of the table of statistics for each error band or each tolerance: [point, band]. It has no
+/// columns yet.
 Table limit_statistic_table(RootDimension limits);
 Table trial_table(const std::vector<study::InputColumn>& inputs);
 Table outcome_table(const study::StudyFeatures& features = {},
                     const MeasureTable& measures = measure_table());
-/// The measures of error bands: [trial, move, band].
+/// Description of the table with the measures of error bands: [trial, move, band].
 Table band_table(const trial::ErrorBands& bands);
-/// The dimension of error bands, with its scale.
+/// The dimension that counts the error bands, with its HDF5 dimension scale.
 RootDimension band_dimension(const trial::ErrorBands& bands);
-/// The measures of tolerances: [trial, move, tolerance].
+/// Description of the table with the settling times for tolerances of the position error: [trial, move,
+/// tolerance].
 Table tolerance_table(const study::StudyFeatures& features);
-/// The dimension of tolerances, with its scale.
+/// The dimension that counts the tolerances of the position error, with its HDF5 dimension scale.
 RootDimension tolerance_dimension(const trial::Tolerances& tolerances);
-/// The table of outcomes that holds only the verdicts.
+/// Description of the table of outcomes of a file that holds only the verdicts on the moves.
 Table verdict_table();
 Table jerk_table();
 Table trace_table(const study::StudyFeatures& features);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);
 Table profile_table(const std::string& name, const std::string& unit);
-/// The rotors of all machines: [machine, theta].
+/// Description of the table with the profiles of all machines' rotors: [machine, theta]. @param name, unit of
+/// the friction parameter.
 Table rotor_table(const std::string& name, const std::string& unit);
-/// Counts of the whole and real numbers in /sums that belong to each design point: [point].
+/// Description of the table that says how many whole and how many real numbers in /sums belong to each design
+/// point: [point].
 Table sums_table();
-/// The whole and the real numbers of /sums, point after point.
+/// Description of the table with the whole numbers (the next function: the real numbers) of /sums, point
+/// after point.
 Table whole_sums_table();
 Table real_sums_table();
 
-/// The table with the units and long names that its columns have on an axis of this kind. The functions above
-/// give them for a rotary axis. Values that a study defines itself (its sweep, inputs and profiles) have
-/// their own units.
+/// Adapts a table's description to the kind of axis: rotary units and long names become those of a linear
+/// axis where needed. Values that a study defines itself (its sweep, inputs and profiles) keep their own
+/// units.
 Table on_axis(Table table, parameters::AxisKind axis);
-/// The column with its unit and long name on an axis of this kind.
+/// Adapts a column's unit and long name to the kind of axis, rotary or linear.
 PointColumn on_axis(PointColumn column, parameters::AxisKind axis);
 
-/// Name in /trial and /machine of the column of an input parameter.
+/// Name of the column that holds the values of an input parameter in the tables /trial and /machine.
 std::string input_column_name(const std::string& parameter);
 
 }  // namespace zerocount::layout

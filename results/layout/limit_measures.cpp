@@ -18,7 +18,7 @@ double value_of_band(const M& move) {
   return move.bands[Band].*Member;
 }
 
-/// Functions of a move that give this measure of its error bands, [band].
+/// Functions, [band], of which each gives the value of this measure in one error band of a move.
 template <double trial::BandOutcome::*Member>
 constexpr auto values_of_bands() {
   return []<std::size_t... Band>(std::index_sequence<Band...>) {
@@ -27,7 +27,8 @@ constexpr auto values_of_bands() {
   (std::make_index_sequence<trial::max_error_bands>());
 }
 
-/// Turns a field of an error band into a field of the move.
+/// Makes the description of a measure of one error band, as a field of the move, from the description of the
+/// error band's field.
 RecordField<M> field_of_band(const RecordField<trial::BandOutcome>& field, std::int64_t band,
                              double (*value)(const M&)) {
   Column column = field.column;
@@ -41,7 +42,7 @@ double value_of_tolerance(const M& move) {
   return (move.*Times)[Tolerance];
 }
 
-/// Functions of a move that give its settling time, [tolerance].
+/// Functions, [tolerance], of which each gives the settling time of a move for one tolerance.
 template <auto Times>
 constexpr auto values_of_tolerances() {
   return []<std::size_t... Tolerance>(std::index_sequence<Tolerance...>) {

@@ -17,7 +17,8 @@ constexpr ValidValues a_fraction_or_nan{"a fraction, or NaN", 0.0, 1.0, true};
 constexpr ValidValues a_time_or_nan{.expected = "a finite time, not negative, or NaN", .nan = true};
 constexpr ValidValues an_error_or_nan{.expected = "a finite number, not negative, or NaN", .nan = true};
 
-/// The statistics of a measure of the true motion.
+/// The statistics that are reported for a measure of the true motion: number of moves that have it, mean,
+/// maximum and bounds of the mean. @param name JSON object that holds the statistics.
 ReportedStatistics mean_of_motion(std::string_view name) {
   return {name,
           {{{n}, "moves that have this measure, of which its statistics are"},
@@ -29,15 +30,16 @@ SummaryColumn bounded_mean(std::string head) {
   return {std::move(head), mean, CellText::number, BoundStatistics{bootstrap_low, bootstrap_high}};
 }
 
-/// Presentation of a measure of the true motion.
+/// Presentation of a measure of the true motion in summaries and sensitivity analyses.
 struct ShownMotion {
   std::string head{};         ///< Head of the measure's column in the summary; empty: it has no column
-  std::string legend{};       ///< Legend of that column
-  std::string_view output{};  ///< Meaning as an output of a trial; empty: it is not an output
+  std::string legend{};       ///< Explanation of that column below the summary's table
+  std::string_view output{};  ///< Meaning as an output of a trial in a sensitivity analysis; empty: it is not
+                              ///< an output
 };
 
-/// A measure of the true motion. A move has it if it is not NaN. The value of a trial is the largest of its
-/// moves.
+/// Describes a measure of the true motion. A move has the measure if its value is not NaN. The value of a
+/// trial is the largest of its moves.
 /// @param use the feature without which no file has the measure.
 /// @param missing meaning of a move without the measure.
 Measure of_motion(bool study::StudyFeatures::*use, Missing missing, const char* name, const char* unit,
@@ -52,7 +54,8 @@ Measure of_motion(bool study::StudyFeatures::*use, Missing missing, const char* 
   return measure;
 }
 
-/// The measures of the position error of a mass, whichever closes the loop.
+/// Appends the measures of the position error of one mass, whether or not its encoder closes the loop. @param
+/// error, overshoot names of the two measures.
 void add_measures_of_mass(MeasureTable& measures, bool study::StudyFeatures::*use, const char* error,
                           const char* overshoot) {
   measures.push_back({.field = field<M>(error, "count", "true_error of this mass", &M::other_true_error),

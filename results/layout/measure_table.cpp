@@ -21,7 +21,7 @@ MeasureTable measures_with(const trial::ErrorBands& bands, const trial::Toleranc
   return measures;
 }
 
-/// Names of the measures that come first in a report, without repetition.
+/// Names of the measures that come first in a report, in their order; each name appears once.
 std::vector<std::string_view> first_of(ReportOrder order) {
   switch (order) {
     case ReportOrder::statistics:

@@ -20,7 +20,8 @@ double limit_from_json(const Json& limit, double none) {
   return limit.is_null() ? none : limit.get<double>();
 }
 
-/// Whether the texts can stand in messages and tables.
+/// Whether all texts of the plugin's description are UTF-8 without control characters, so that they can stand
+/// in messages and tables.
 bool is_printable(const plugin::PluginDescription& plugin) {
   const auto printable = [](const plugin::PluginParameter& p) {
     return text::is_printable(p.name) && text::is_printable(p.unit) && text::is_printable(p.meaning);

@@ -9,7 +9,7 @@
 namespace zerocount::layout {
 namespace {
 
-/// Version of the sums. It is raised with every change of the fields in files, or of their order.
+/// Version of the sums over trials in /sums. It is raised with every change of the numbers or of their order.
 constexpr int form_number = 2;
 
 std::string text_of(const ReportedStatistics& reported) {

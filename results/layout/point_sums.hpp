@@ -9,27 +9,28 @@
 
 namespace zerocount::layout {
 
-/// The sums over the trials of one design point, from which its statistics follow, as plain numbers. Only the
-/// accumulator that made them knows their meaning.
+/// Sums over the trials of one design point, as plain numbers, from which its statistics are computed. Only
+/// the accumulator that made the sums knows the meaning and order of the numbers.
 struct PointSums {
   std::vector<std::int64_t> whole;
   std::vector<double> real;
 };
 
-/// The sums of several points, as the columns of /sums.
+/// The sums of several design points, as the columns of the tables /sums.
 struct SumColumns {
   explicit SumColumns(std::span<const PointSums> sums);
 
-  std::vector<std::int64_t> whole_counts, real_counts;  ///< Count of whole and of real numbers of each point
-  std::vector<std::int64_t> whole;  ///< Whole numbers of all points, one point after the other
+  std::vector<std::int64_t> whole_counts, real_counts;  ///< Number of whole and of real numbers that belong
+                                                        ///< to each design point, [point]
+  std::vector<std::int64_t> whole;  ///< Whole numbers of all design points, one point after the other
   std::vector<double> real;
 };
 
-/// Writes /sums for the points from `first_point` on. @param sums [point].
+/// Writes the tables /sums for the design points from `first_point` on. @param sums [point].
 void write_sums(hdf5::File& file, std::int64_t first_point, std::span<const PointSums> sums);
 
-/// Identifies the meaning and order of the numbers. It differs between programs that do not understand each
-/// other's sums.
+/// Text that identifies the meaning and order of the numbers in /sums. It differs between programs that do
+/// not understand each other's sums.
 std::string sums_form();
 
 }  // namespace zerocount::layout

@@ -10,8 +10,9 @@
 
 namespace zerocount::layout {
 
-/// The values of the manifest of a file, with its overrides.
-/// @param source file of the header, for messages.
+/// The values of the manifest (the study's input file) that a results file contains, with its overrides
+/// applied.
+/// @param source name of the results file, for messages.
 /// @throws Failure (bad_data) where the manifest is not YAML that this program accepts.
 manifest_text::ManifestValues manifest_values(const FileHeader& header, const std::string& source);
 

@@ -11,7 +11,7 @@
 namespace zerocount::layout {
 namespace {
 
-/// The columns of the group as the file describes them, without values.
+/// The columns of a group of statistics as the file describes them, without their values.
 std::vector<PointColumn> described_columns(const hdf5::Group& group, const StatisticGroup& kind) {
   std::vector<PointColumn> columns;
   for (const std::string& name : group.children()) {
@@ -22,12 +22,13 @@ std::vector<PointColumn> described_columns(const hdf5::Group& group, const Stati
   return columns;
 }
 
-/// The name of a number of an error band or tolerance without the band or tolerance; empty for other names.
+/// The part of a statistic's name before the error band or tolerance in brackets; empty for a name without
+/// brackets.
 std::string_view name_before_limit(std::string_view name) {
   return name.ends_with(']') ? name.substr(0, name.find('[')) : std::string_view();
 }
 
-/// Joins the columns of successive error bands, or tolerances, to one column [point, band].
+/// Joins the columns of successive error bands, or tolerances, into one column with the values [point, band].
 PointColumn joined_limits(std::span<const PointColumn> columns) {
   PointColumn joined{std::string(name_before_limit(columns.front().name)),
                      columns.front().unit,

@@ -25,7 +25,7 @@ void describe(hdf5::Dataset& dataset, const Column& column) {
   dataset.set_text("flag_meanings", words);
 }
 
-/// The group at `path` below `root`. Each group on the path is created if it does not exist yet.
+/// The HDF5 group at `path` below `root`. Each group on the path is created if it does not exist yet.
 hdf5::Group make_group(hdf5::Group& root, const std::string& path) {
   const std::size_t slash = path.find('/');
   const std::string name = path.substr(0, slash);
@@ -33,7 +33,8 @@ hdf5::Group make_group(hdf5::Group& root, const std::string& path) {
   return slash == std::string::npos ? std::move(group) : make_group(group, path.substr(slash + 1));
 }
 
-/// Creates `name` (a path) below `group`.
+/// Creates the dataset `name`, which may be a path, below `group`. Groups on the path are created if they do
+/// not exist yet.
 hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hdf5::Storage& storage) {
   const std::size_t slash = name.rfind('/');
   if (slash == std::string::npos) return group.create_dataset(name, storage);
@@ -41,7 +42,7 @@ hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hd
   return folder.create_dataset(name.substr(slash + 1), storage);
 }
 
-/// @param inner sizes of the dimensions after the rows.
+/// HDF5 storage of a dataset with this many rows. @param inner sizes of the dimensions after the rows.
 hdf5::Storage storage_of(hdf5::Element element, std::int64_t rows, std::span<const hdf5::Size> inner,
                          hdf5::Compression compression) {
   std::int64_t width = 1;
@@ -57,7 +58,8 @@ hdf5::Storage storage_of(hdf5::Element element, std::int64_t rows, std::span<con
   return storage;
 }
 
-/// The scale of a dimension; tables of one group share the scales of equal names.
+/// Creates the HDF5 dimension scale `column` with `size` values, or opens it if another table of the group
+/// has made it.
 hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size) {
   if (group.contains(column.name)) return group.open_dataset(column.name);
   hdf5::Dataset scale = group.create_dataset(column.name, scale_storage(column, size));

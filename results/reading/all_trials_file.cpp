@@ -32,7 +32,7 @@ std::int64_t AllTrialsFile::row_in_file(std::int64_t row) const {
   return point * setting_->trials + setting_->indices.trial_of(row % draws, setting_->number);
 }
 
-/// Requires that the file holds the rows.
+/// Checks that the file holds the trials in `range`.
 /// @throws Failure (bad_data) otherwise.
 void AllTrialsFile::require_rows(layout::RowRange range) const {
   if (range.first >= rows().first && range.count >= 0 && range.end() <= rows().end()) return;

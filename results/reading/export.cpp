@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Calls `take(first, count)` for successive blocks of [first, end).
+/// Calls `take(first, count)` for successive ranges of at most `size` numbers in [first, end).
 void for_each_block(std::int64_t first, std::int64_t end, std::int64_t size,
                     const std::function<void(std::int64_t, std::int64_t)>& take) {
   for (; first < end; first += size) take(first, std::min(size, end - first));
@@ -37,7 +37,8 @@ void add_values(CsvFile& csv, const std::vector<layout::RecordField<Record>>& fi
   for (const layout::RecordField<Record>& field : fields) csv.add(value_text(field, record));
 }
 
-/// Writes a table of records without other columns; read(first, count) returns some of its `rows` records.
+/// Writes a table with one row per record, and no other columns. @param read read(first, count) returns some
+/// of the `rows` records.
 template <class Record, class Read>
 void export_records(const std::vector<layout::RecordField<Record>>& fields, std::int64_t rows,
                     const Read& read, parameters::AxisKind axis, CsvFile& csv) {
@@ -115,7 +116,8 @@ void export_jerks(const TrialTables& trials, CsvFile& csv) {
   export_records(layout::jerk_fields(), trials.jerk_count(), read, trials.features().axis, csv);
 }
 
-/// @param trials must live as long as the tables.
+/// Adds the tables of trials, outcomes, jerks and samples to the tables to export. @param trials must live as
+/// long as the tables. @param trials_of_point number of trials per design point.
 void add_trial_tables(std::vector<ExportedTable>& tables, const TrialTables& trials,
                       std::int64_t trials_of_point) {
   tables.push_back({"trials.csv", [&trials, trials_of_point](const ResultsFile&, CsvFile& csv) {
@@ -149,7 +151,8 @@ void export_profiles(const ResultsFile& file, CsvFile& csv) {
   }
 }
 
-/// Writes the inputs of machines or worlds, or the names of conditions.
+/// Writes the groups of a grouping: the inputs of machines or worlds, or the names of conditions, one row per
+/// group.
 void export_groups(const layout::Grouping& grouping, const StoredGroups& groups, CsvFile& csv) {
   csv.add(grouping.name);
   if (!groups.names.empty()) csv.add("name");
@@ -163,7 +166,7 @@ void export_groups(const layout::Grouping& grouping, const StoredGroups& groups,
   }
 }
 
-/// Writes one row per design point and group. The group is given by its number or its age.
+/// Writes statistics with one row per design point and group. The group is given by its number or its age.
 void export_by_group(const layout::Grouping& grouping, const StoredGroups& groups,
                      const std::vector<layout::PointColumn>& columns, CsvFile& csv) {
   csv.add("point", head_with_unit(grouping.name, groups.unit));
@@ -178,8 +181,9 @@ void export_by_group(const layout::Grouping& grouping, const StoredGroups& group
   }
 }
 
-/// The tables of a grouping, such as machines.csv and machine_counts.csv. Ages have only ages.csv, because
-/// nothing but counts is known of them. The lives of machines are in lives.csv.
+/// Adds the tables of a grouping of trials, such as machines.csv and machine_counts.csv, to the tables to
+/// export. Ages have only ages.csv, because nothing but counts is known of them. The lives of machines are in
+/// lives.csv.
 void add_groups(std::vector<ExportedTable>& tables, const ResultsFile& file,
                 const layout::Grouping& grouping) {
   const std::optional<StoredGroups> found = file.groups(grouping.name);
@@ -215,7 +219,7 @@ void export_trace(const TrialTables& trials, CsvFile& csv) {
                  csv);
 }
 
-/// Writes one row per design point and index of the second dimension.
+/// Writes statistics with a second dimension: one row per design point and index of that dimension.
 void export_statistics(const layout::StatisticTable& table, CsvFile& csv) {
   csv.add("point", table.group->dimension);
   for (const layout::PointColumn& column : table.columns) csv.add(head_with_unit(column.name, column.unit));
@@ -240,8 +244,8 @@ void add_statistic_tables(std::vector<ExportedTable>& tables, const ResultsFile&
   }
 }
 
-/// Writes the tables. No file gets its name before all are complete, so that a failure leaves nothing that
-/// would stop the next attempt.
+/// Writes the tables as CSV files. No file gets its final name before all are complete, so that a failure
+/// leaves nothing that would stop the next attempt. @returns the paths of the files.
 std::vector<fs::path> write_tables(const std::vector<ExportedTable>& tables, const ResultsFile& file,
                                    const fs::path& directory, ExistingFiles existing) {
   std::vector<fs::path> paths(tables.size());

@@ -13,10 +13,11 @@
 
 namespace zerocount::reading {
 
-/// The shortest decimal text that reads back to the same double; "nan", "inf" and "-inf" for the others.
+/// The shortest decimal text that reads back to the same double; "nan", "inf" or "-inf" if the number is not
+/// finite.
 std::string number_text(double value);
 
-/// The value of a field: a number, or the word of an enumeration.
+/// The value of a record's field as text: a number, or the word of an enumeration.
 template <class Record>
 std::string value_text(const layout::RecordField<Record>& field, const Record& record) {
   const double value = layout::value_of(field, record);
@@ -26,11 +27,11 @@ std::string value_text(const layout::RecordField<Record>& field, const Record& r
                                                      : std::to_string(whole);
 }
 
-/// The name of a column with its unit, such as "arrival_time [s]"; the name alone where it has none ("1" or
-/// nothing).
+/// Head of a CSV column: its name with its unit, such as "arrival_time [s]"; the name alone if the unit is
+/// "1" or empty.
 std::string head_with_unit(std::string_view name, std::string_view unit);
 
-/// A table in the form of RFC 4180, but with lines that end in a single line feed. It is an OutputFile: its
+/// A CSV file that is being written (RFC 4180, but lines end in a single line feed). It is an OutputFile: its
 /// name is PATH.part until publish(), and it is removed if publish() is never called.
 /// @throws Failure (machine_failed) with the path and the reason, from every function.
 class CsvFile {
@@ -39,13 +40,14 @@ class CsvFile {
 
   void add(double value);
   void add(std::int64_t value);
-  void add(std::string_view text);  ///< Adds a text, in quotes if it needs them
+  void add(std::string_view text);  ///< Adds a cell with a text, in quotes if it needs them
   template <class... Values>
   requires(sizeof...(Values) > 1) void add(const Values&... values) { (add(values), ...); }
   void end_row();
-  /// Finishes the file (OutputFile::finish()). Nothing can be added afterwards.
+  /// Finishes the file: brings it to the disk and checks it (OutputFile::finish()). Nothing can be added
+  /// afterwards.
   void finish() { file_.finish(); }
-  void publish() { file_.publish(); }  ///< Gives the finished file its name.
+  void publish() { file_.publish(); }  ///< Renames the finished file from PATH.part to PATH
 
  private:
   void separate();
@@ -55,13 +57,14 @@ class CsvFile {
   bool row_started_{false};
 };
 
-/// A table as a CSV file.
+/// A table of a results file that is exported as a CSV file.
 struct ExportedTable {
-  std::string name;                                         ///< Name of the file
-  std::function<void(const ResultsFile&, CsvFile&)> write;  ///< Writes all rows of the table
+  std::string name;                                         ///< Name of the CSV file
+  std::function<void(const ResultsFile&, CsvFile&)> write;  ///< Function that writes all rows of the table to
+                                                            ///< the CSV file
 };
 
-/// The treatment of files that have the names of tables already.
+/// Treatment of existing files that have the names of files to be written.
 enum class ExistingFiles { refuse, replace };
 
 /// Writes the tables of a results file as CSV into `directory`, which is made if need be: points.csv;

@@ -13,18 +13,18 @@
 namespace zerocount::reading {
 namespace {
 
-/// Number of elements that are read at a time.
+/// Number of elements of a dataset that are read and compared at a time.
 constexpr std::int64_t block_elements = 1 << 20;
 
-/// A comparison of two files.
+/// Rules for a comparison of two files, and the receiver of its differences.
 struct Comparison {
-  double tolerance{0.0};  ///< Relative tolerance of real numbers
-  bool units{false};      ///< Units are compared too.
-  /// Receives each difference; a result of false ends the comparison.
+  double tolerance{0.0};  ///< Relative tolerance of real numbers; 0: bits are compared
+  bool units{false};      ///< Whether the attribute `units` is compared too
+  /// Function that receives each difference; if it returns false, the comparison ends.
   std::function<bool(const DatasetDifference&)> tell;
 };
 
-using How = std::optional<std::string>;  ///< Description of a difference; empty without one
+using How = std::optional<std::string>;  ///< Description of a difference; empty if there is none
 
 How text_difference(const hdf5::Dataset& one, const hdf5::Dataset& other) {
   const std::vector<std::string> before = one.read_texts();
@@ -39,8 +39,8 @@ bool are_close(double one, double other, double tolerance) {
   return one == other || std::abs(one - other) <= tolerance * std::max(std::abs(one), std::abs(other));
 }
 
-/// Index of the first byte that differs or, with a tolerance, of the first real number that differs by more
-/// than it. The size if nothing differs.
+/// Byte index of the first difference: of the first byte that differs or, if a tolerance is given for real
+/// numbers, of the first number that differs by more than the tolerance. one.size() if nothing differs.
 std::size_t first_mismatch(const std::vector<std::byte>& one, const std::vector<std::byte>& other,
                            bool real_numbers, double tolerance) {
   const auto from =
@@ -86,8 +86,8 @@ How dataset_difference(const hdf5::Dataset& one, const hdf5::Dataset& other, dou
                                               : number_difference(one, other, tolerance);
 }
 
-/// Whether a dataset holds statistics of the trials. They are compared last, after the data from which they
-/// are computed.
+/// Whether the dataset `name` holds statistics that are computed from the trials. They are compared last,
+/// after the data from which they are computed.
 bool is_derived(const std::string& name) {
   return name == "point" || name == "level" || name == "repeatability";
 }
@@ -98,7 +98,8 @@ std::string path_in(const hdf5::Group& group, const std::string& name) {
 
 bool compare_groups(const hdf5::Group& one, const hdf5::Group& other, const Comparison& comparison);
 
-/// Compares the member `name` of the first group. @returns false if the comparison is to end.
+/// Compares the member `name` of group `one` with the member of that name in group `other`. @returns false if
+/// the comparison is to end.
 bool compare_member(const hdf5::Group& one, const hdf5::Group& other, const std::string& name,
                     const Comparison& comparison) {
   const std::string path = path_in(one, name);

@@ -46,14 +46,15 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
   return values;
 }
 
-/// Requires that a column has one value per design point.
+/// Checks that a dataset has one value per design point. @throws Failure (bad_data) otherwise.
 void require_points(const hdf5::Dataset& dataset, std::int64_t points) {
   const std::vector<hdf5::Size> extent = dataset.extent();
   if (!extent.empty() && extent.size() <= 2 && extent[0] == static_cast<hdf5::Size>(points)) return;
   dataset.fail(fmt::format("it should have one value for each of the {} design points", points));
 }
 
-/// The columns of /point with this role, and their names; none in a shard.
+/// The columns of the table /point with this role ("axis" or "statistic"), as pairs of name and dataset; none
+/// in a shard.
 std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::File& file, std::int64_t points,
                                                                  std::string_view role) {
   std::vector<std::pair<std::string, hdf5::Dataset>> columns;
@@ -68,7 +69,8 @@ std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::Fil
   return columns;
 }
 
-/// Names of the columns in a dataset [point, band] or [point, tolerance].
+/// Names of the columns that a dataset [point, band] or [point, tolerance] stands for, one per error band or
+/// tolerance.
 std::vector<std::string> names_by_limit(const hdf5::File& file, const std::string& name) {
   std::vector<std::string> names;
   if (layout::is_of_tolerance(name)) {
@@ -81,7 +83,7 @@ std::vector<std::string> names_by_limit(const hdf5::File& file, const std::strin
   return names;
 }
 
-/// Appends a column for each error band, or tolerance, of the dataset [point, band].
+/// Appends to `columns` one column for each error band, or tolerance, of the dataset [point, band].
 void append_limits(const hdf5::File& file, const layout::PointColumn& column, const hdf5::Dataset& dataset,
                    std::vector<layout::PointColumn>& columns) {
   require_numbers(dataset, 2);
@@ -98,7 +100,8 @@ void append_limits(const hdf5::File& file, const layout::PointColumn& column, co
   }
 }
 
-/// Index of the first number of each point, and the end of the last point.
+/// Index of the first number of each design point in the numbers of /sums, [point], followed by the end of
+/// the last point.
 std::vector<std::int64_t> begins_of(const layout::TableReader& counts, std::size_t column,
                                     const layout::TableReader& numbers) {
   std::vector<std::int64_t> begins{0};
@@ -120,7 +123,8 @@ std::vector<Number> numbers_of(const layout::TableReader& io, const std::vector<
   return numbers;
 }
 
-/// The statistics of the groups at the design points, which are the datasets of numbers in two dimensions.
+/// The statistics of a grouping's groups at the design points: all datasets of numbers in two dimensions in
+/// the HDF5 group.
 std::vector<layout::PointColumn> group_statistics(const hdf5::Group& group) {
   std::vector<layout::PointColumn> statistics;
   for (const std::string& name : group.children()) {
@@ -132,7 +136,8 @@ std::vector<layout::PointColumn> group_statistics(const hdf5::Group& group) {
   return statistics;
 }
 
-/// Reads the counts and statistics of the groups, which a part does not have.
+/// Reads the counts and statistics of a grouping's groups into `stored`. A part of a study does not have
+/// them.
 void read_counts(const hdf5::File& file, const layout::FileHeader& header, const layout::Grouping& grouping,
                  StoredGroups& stored) {
   const hdf5::Group group = file.open_group(std::string(grouping.name));

@@ -44,7 +44,7 @@ constexpr std::string_view signature = "zerocount-shard ";
                                                   place.empty() ? "" : ": ", problem)));
 }
 
-/// A column of a shard as a source of rows.
+/// One column of a shard, as a source of stored rows.
 class ShardColumn final : public hdf5::RowSource {
  public:
   ShardColumn(fs::path path, std::shared_ptr<const storage::FileDescriptor> file,
@@ -92,7 +92,8 @@ class ShardColumn final : public hdf5::RowSource {
   std::vector<hdf5::StoredChunk> chunks_;
 };
 
-/// Detects MessagePack that is nested deeper than a head, before anything recurses through it.
+/// MessagePack parser that detects nesting deeper than in a shard's head, before anything recurses through
+/// the data.
 class DepthLimit final : public nlohmann::json_sax<Json> {
  public:
   bool null() override { return true; }
@@ -129,7 +130,7 @@ bool has_possible_rows(const ShardHead& head) {
                              [](const auto& column) { return column.rows >= 0 && column.rows <= most; });
 }
 
-/// The head of a shard, and the address of its first chunk.
+/// Reads the head of a shard. @returns the head, and the position of the first chunk in the file.
 std::pair<ShardHead, std::uint64_t> read_head(const fs::path& path, const storage::FileDescriptor& file) {
   constexpr std::size_t max_line = 64;
   const std::size_t size = storage::size_of_file(path, file);

@@ -24,32 +24,33 @@ namespace zerocount::reading {
 
 struct ShardHead {
   struct Column {
-    std::string path;  ///< Path of the dataset of which the column becomes a part
+    std::string path;  ///< Path of the dataset in the results file to which the column's rows will be joined
     std::int64_t rows{0};
-    std::vector<std::uint64_t> chunks;  ///< Size of each chunk, bytes
+    std::vector<std::uint64_t> chunks;  ///< Size of each stored chunk of the column, bytes
   };
   layout::FileHeader header;
   hdf5::Compression compression{hdf5::Compression::none};
   std::vector<Column> columns;
 };
 
-/// The bytes before the chunks of a shard: the first line and the head.
+/// The bytes of a shard before its chunks: the first line and the head.
 std::string bytes_of(const ShardHead& head);
 
-/// Whether a file begins as a shard does. False also if it cannot be read.
+/// Whether a file begins like a shard (finished trials of a run that has not ended). False also if it cannot
+/// be read.
 bool is_shard(const std::filesystem::path& path);
 
-/// A shard, open to be read.
+/// A shard (a file with finished trials of a run that has not ended), open to be read.
 class ShardFile {
  public:
-  /// @throws ForeignFile for a shard of another version; Failure (bad_data) for damage, (machine_failed) if
-  /// it cannot be read
+  /// Opens a shard. @throws ForeignFile for a shard of another version; Failure (bad_data) for damage,
+  /// (machine_failed) if it cannot be read
   explicit ShardFile(const std::filesystem::path& path,
                      layout::Checksum checksum = layout::Checksum::required);
 
   const layout::FileHeader& header() const { return head_.header; }
-  /// Opens the columns of a table; they may outlive this object. If the rows of the table are trials, the
-  /// scale of the rows holds them.
+  /// Opens the columns of one table in the shard; they may outlive this object. If the rows of the table are
+  /// trials, the scale of the returned table holds their row numbers.
   /// @param second size of the second dimension, 1 if the table has none
   /// @throws ForeignFile for a shard of another build; Failure (bad_data) if a column is missing or the
   /// columns differ in size
@@ -64,7 +65,7 @@ class ShardFile {
   std::filesystem::path path_;
   std::shared_ptr<const storage::FileDescriptor> file_;
   ShardHead head_;
-  /// Address of the first chunk of each column, [column], and of the end
+  /// Position in the file of the first chunk of each column, [column], followed by the end of the last, bytes
   std::vector<std::uint64_t> begins_;
 };
 

@@ -20,10 +20,11 @@
 namespace zerocount::reading {
 namespace {
 
-/// Columns of /trial before the inputs: point and index.
+/// Number of columns in the table /trial before the inputs: point and index.
 constexpr std::size_t columns_before_inputs = 2;
 
-/// Finds the kind of axis from the unit of a position, and the features from their columns.
+/// Derives the study's features from the file: the kind of axis from the unit of a position, the others from
+/// the columns that exist.
 study::StudyFeatures read_features(const hdf5::File& file, const layout::MeasureTable& measures) {
   const hdf5::Group outcome = file.open_group("outcome");
   study::StudyFeatures features;
@@ -47,7 +48,7 @@ study::StudyFeatures read_features(const hdf5::File& file, const layout::Measure
   return features;
 }
 
-/// Position of the first of `size` rising numbers that is not below `number`.
+/// Index of the first of `size` ascending numbers that is at least `number`; `size` if there is none.
 std::int64_t first_not_below(const hdf5::RowSource& numbers, std::int64_t size, std::int64_t number) {
   return numerics::first_where(0, size, [&](std::int64_t at) {
     std::int64_t value = 0;
@@ -180,7 +181,8 @@ OutcomeColumns TrialTables::decoded(const StoredOutcomes& stored) const {
 
 namespace {
 
-/// The records of the rows at some positions. @param width records of a row
+/// Decodes the records of some rows from columns, [row][record], flattened. @param skipped_rows rows in the
+/// columns before the first. @param width number of records in a row.
 template <class Record>
 std::vector<Record> records_at(const std::vector<layout::RecordField<Record>>& fields,
                                const OutcomeColumns::Columns& columns, std::int64_t skipped_rows,
@@ -192,8 +194,9 @@ std::vector<Record> records_at(const std::vector<layout::RecordField<Record>>& f
 
 constexpr std::int64_t moves_of_part = 1024;
 
-/// Calls work(part) for parts of the positions, several at a time. If several parts throw, the exception of
-/// the first of these parts is thrown, whichever ends first.
+/// Calls work(part) for successive parts of the positions, of `size` each, several at a time on several
+/// threads. If several parts throw, the exception of the first of these parts is thrown, whichever ends
+/// first.
 template <class Work>
 void for_each_part(layout::RowRange positions, std::int64_t size, const Work& work) {
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>((positions.count + size - 1) / size));

@@ -22,7 +22,7 @@ bool is_valid(const layout::ValidValues& valid, double value) {
   return std::isnan(value) ? valid.nan : value >= valid.low && value <= valid.high;
 }
 
-/// The field of this name; null if there is none.
+/// Pointer to the description of the field with this name; null if there is none.
 template <class Record>
 const layout::RecordField<Record>* find_field(const std::vector<layout::RecordField<Record>>& fields,
                                               std::string_view name) {
@@ -36,7 +36,9 @@ const layout::RecordField<Record>* find_field(const std::vector<layout::RecordFi
   dataset.fail(fmt::format("{}: it is {}; expected {}", row, value, expected));
 }
 
-/// Requires that `holds` is true for the field of every record. `row_of` gives the row of the i-th record.
+/// Checks that `holds` is true for the value of the field in every record. @param row_of gives the row of the
+/// i-th record, for the message. @param expected the possible values in words, for the message.
+/// @throws Failure (bad_data) otherwise.
 template <class Record, class RowOf, class Holds>
 void require_all(const layout::TableReader& table, const std::vector<layout::RecordField<Record>>& fields,
                  const layout::RecordField<Record>& field, std::span<const Record> records,
@@ -62,8 +64,8 @@ auto rows_of_moves(const layout::TableReader& outcomes, std::int64_t first_row) 
   };
 }
 
-/// Reads a column of whole numbers, in at most `numbered_blocks` blocks, which are spread evenly over it;
-/// `expected` is what each must be, by its row.
+/// Checks that a column of whole numbers has the value `expected(row)` in each row. If the column is long,
+/// only `numbered_blocks` blocks are read, which are spread evenly over it.
 template <class Expected>
 void require_numbers(const hdf5::RowSource& dataset, std::int64_t rows, Expected expected) {
   const std::int64_t blocks = (rows + rows_at_once - 1) / rows_at_once;
@@ -83,7 +85,8 @@ void require_numbers(const hdf5::RowSource& dataset, std::int64_t rows, Expected
   }
 }
 
-/// Requires that the rows of kept trials rise within the rows of the file, and agree with point and index.
+/// Checks that the global rows of kept trials rise within the rows of the file, and agree with design point
+/// and index.
 void require_kept_rows(const layout::FileHeader& header, const layout::TableReader& trials) {
   std::int64_t last = header.rows.first - 1;
   for (std::int64_t first = 0; first < trials.rows(); first += rows_at_once) {

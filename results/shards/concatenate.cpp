@@ -18,13 +18,13 @@
 namespace zerocount::shards {
 namespace {
 
-/// The rows that one shard contributes to the table.
+/// The rows that one shard contributes to the table that is written.
 struct Source {
   std::filesystem::path path;
-  layout::RowRange rows;  ///< Rows of the shard in the table that is written
+  layout::RowRange rows;  ///< Rows in the table that is written
 };
 
-/// @param width size of the second dimension
+/// Number of elements in one row of the table's columns. @param width size of the second dimension
 std::int64_t elements_of_row(const layout::Table& table, std::int64_t width) {
   return table.last ? width * std::ssize(table.last->values) : width;
 }
@@ -53,21 +53,23 @@ std::vector<Source> find_sources(const layout::Table& table, std::span<const Sha
   return sources;
 }
 
-/// Bytes of some rows, [column].
+/// Some rows of a table, as the bytes of each column, [column].
 using Block = std::vector<std::vector<std::byte>>;
 
-/// The tables of the shards. The last one read stays open, because the next rows are mostly in it, too.
+/// The shards' tables, as one sequence of rows. The table read last stays open, because the next rows are
+/// mostly in it, too.
 class Sources {
  public:
-  /// @param width size of the second dimension. @param chunk rows in a chunk of the table that is written.
+  /// @param width size of the second dimension. @param chunk number of rows in a chunk (stored block) of the
+  /// table that is written.
   Sources(const layout::Table& table, std::span<const ShardInfo> shards, std::int64_t width,
           std::int64_t chunk)
       : table_(table), sources_(find_sources(table, shards, width)), width_(width), chunk_(chunk) {}
 
   std::int64_t rows() const { return sources_.empty() ? 0 : sources_.back().rows.end(); }
 
-  /// Copies the rows `wanted` of these columns to `out` as they are stored. False if that is not possible,
-  /// because they are not whole chunks of one shard.
+  /// Copies the rows `wanted` of all columns to `out` without decoding them. @returns false if that is not
+  /// possible, because they are not whole chunks of one shard.
   bool copy_chunks(layout::RowRange wanted, layout::TableIo& out, timeline::Timeline* timeline) {
     const std::size_t index = index_of(wanted.first);
     const Source& source = sources_[index];
@@ -83,14 +85,15 @@ class Sources {
     return true;
   }
 
-  /// Whether copy_chunks() might copy these rows. They must not lie before the rows of earlier calls.
+  /// Whether copy_chunks() may be able to copy these rows. They must not lie before the rows of earlier
+  /// calls.
   bool may_copy(layout::RowRange wanted) const {
     std::size_t index = next_;
     while (sources_[index].rows.end() <= wanted.first) ++index;
     return may_be_chunks_of(sources_[index], wanted);
   }
 
-  /// Reads rows of all columns.
+  /// Reads and decodes the rows `wanted` of all columns.
   Block read(layout::RowRange wanted, timeline::Timeline* timeline) {
     Block block(table_.columns.size());
     for (std::size_t index = index_of(wanted.first);
@@ -112,7 +115,7 @@ class Sources {
     return wanted.end() <= source.rows.end() && (wanted.first - source.rows.first) % chunk_ == 0;
   }
 
-  /// Index of the source that holds this row.
+  /// Index of the shard's entry in sources_ that holds this row.
   std::size_t index_of(std::int64_t row) {
     while (sources_[next_].rows.end() <= row) ++next_;
     return next_;
@@ -131,7 +134,7 @@ class Sources {
   std::vector<Source> sources_;
   std::int64_t width_;
   std::int64_t chunk_;
-  std::size_t next_{0};  ///< Index of the first source whose rows are still needed
+  std::size_t next_{0};  ///< Index of the first entry of sources_ whose rows are still needed
   std::optional<std::size_t> open_;
   std::optional<hdf5::File> file_;
   std::optional<layout::TableReader> reader_;
@@ -149,7 +152,8 @@ void renumber_trials(const layout::Table& table, const Renumbering& renumber, Bl
   }
 }
 
-/// The rows to write next: one chunk that may be copied, or a few chunks that cannot be.
+/// The rows to write next, from `first` on: one chunk if it may be copied without decoding, otherwise a few
+/// chunks.
 layout::RowRange next_rows(const Sources& sources, std::int64_t first, std::int64_t chunk, bool copies) {
   constexpr std::int64_t max_chunks = 8;
   const auto chunk_from = [&](std::int64_t row) {
@@ -165,7 +169,7 @@ layout::RowRange next_rows(const Sources& sources, std::int64_t first, std::int6
   return rows;
 }
 
-/// Writes rows of all columns, a chunk of each column after the other.
+/// Writes rows of all columns to the table, one chunk of each column after the other.
 void write_block(layout::TableIo& out, layout::RowRange rows, const Block& block,
                  timeline::Timeline* timeline) {
   const std::int64_t chunk = layout::chunk_rows(out.width());

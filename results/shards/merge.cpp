@@ -42,7 +42,7 @@ std::vector<fs::path> expand(std::span<const fs::path> inputs) {
   return files;
 }
 
-/// @throws Failure unless the shards, sorted by rows, cover `rows` without gaps and overlaps.
+/// Checks that the shards, sorted by rows, cover `rows` without gaps and overlaps. @throws Failure otherwise.
 void require_cover(std::span<const ShardInfo> shards, layout::RowRange rows, const fs::path& output) {
   std::int64_t next = rows.first;
   const ShardInfo* previous = nullptr;
@@ -73,8 +73,8 @@ void require_cover(std::span<const ShardInfo> shards, layout::RowRange rows, con
   }
 }
 
-/// `provenance` of the merged file. If a shard was made by a build with uncommitted changes, the file has the
-/// commit of that shard.
+/// Provenance that the merged file records: `provenance`, but with the git commit of a shard that was made by
+/// a build with uncommitted changes, if there is one.
 layout::Provenance merged_provenance(std::span<const ShardInfo> shards, layout::Provenance provenance) {
   for (const ShardInfo& shard : shards) {
     if (layout::is_dirty(provenance)) break;
@@ -99,7 +99,7 @@ void write_points(hdf5::File& file, const study::Study& study) {
   }
 }
 
-/// Creates the file `part` with the description of the study.
+/// Creates the file `part` and writes the description of the study to it.
 hdf5::File begin_file(const study::Study& study, const fs::path& part, layout::RowRange rows,
                       const layout::Provenance& provenance) {
   hdf5::File file = hdf5::File::create(part);
@@ -108,8 +108,8 @@ hdf5::File begin_file(const study::Study& study, const fs::path& part, layout::R
   return file;
 }
 
-/// Writes the rows of the trials, computed from point and index, in a file with only some trials of its
-/// study.
+/// Writes the global rows of the kept trials, computed from design point and index, as the scale of the
+/// trials, in a file that keeps only some trials of its study.
 void number_kept_trials(hdf5::File& file, const study::Study& study) {
   layout::TableIo trials = layout::TableIo::open(file, layout::trial_table({}));
   layout::TableIo outcomes = layout::TableIo::open(file, layout::verdict_table());
@@ -126,7 +126,8 @@ void number_kept_trials(hdf5::File& file, const study::Study& study) {
   }
 }
 
-/// Writes everything except sums, statistics and the completion mark.
+/// Writes the merged file except sums, statistics and the completion mark. @returns the record of the bytes
+/// written.
 storage::WrittenBytes write_trials_of(std::span<const ShardInfo> shards, const study::Study& study,
                                       const fs::path& part, layout::RowRange rows,
                                       const MergeOptions& options) {
@@ -167,7 +168,7 @@ void write_point_statistics(hdf5::File& file, const study::Study& study,
                               points);
 }
 
-/// The shards in order of rows. @throws Failure unless they cover `rows`.
+/// The shards sorted by rows. @throws Failure unless they cover `rows` without gaps and overlaps.
 std::vector<ShardInfo> in_order(std::span<const ShardInfo> shards, layout::RowRange rows,
                                 const fs::path& output) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());

@@ -39,7 +39,8 @@ void require_fit(const study::Study& study, layout::RowRange rows, const TrialCo
   }
 }
 
-/// Number of columns that are encoded together, so that several threads can encode their chunks.
+/// Collects the columns of a shard and encodes them together, so that several threads can encode their
+/// chunks.
 class Encoding {
  public:
   explicit Encoding(EncodedShard& shard) : shard_(shard) {}
@@ -130,7 +131,7 @@ void require_fit(const study::Study& study, std::span<const TrialResult> trials)
   }
 }
 
-/// The regular files in `directory` whose names end in one of the extensions, in order of names.
+/// The regular files in `directory` whose names end in one of the extensions, sorted by name.
 std::vector<fs::path> files_in(const fs::path& directory, std::initializer_list<const char*> extensions) {
   std::vector<fs::path> files;
   std::error_code error;

@@ -57,7 +57,7 @@ void write_rotors(hdf5::File& file, const study::RealisedProfile& realised, cons
   }
 }
 
-/// The unit of the scale of the groups.
+/// Unit of the HDF5 dimension scale of a grouping's groups: the unit of ages, otherwise "1".
 std::string unit_of(const study::Study& study, const layout::Grouping& grouping) {
   return grouping.has_values ? study.settings.ages.unit : "1";
 }

@@ -11,7 +11,8 @@
 namespace zerocount::shards {
 namespace {
 
-/// Writes a number of each result to a column.
+/// The bytes of a column that holds one number of each trial. @param value_of gives the number of a trial's
+/// result.
 template <class ValueOf>
 std::vector<std::byte> column_of(std::span<const TrialResult> results, const ValueOf& value_of) {
   using Value = std::invoke_result_t<ValueOf, const TrialResult&>;
@@ -37,7 +38,7 @@ TableColumns trial_columns(const study::Study& study, std::span<const TrialResul
   return trials;
 }
 
-/// @param width number of records in a row.
+/// Makes the columns of a table from records. @param width number of records in one row of the table.
 template <class Record>
 TableColumns record_columns(const std::vector<layout::RecordField<Record>>& fields,
                             const std::vector<const Record*>& records, std::int64_t width) {
@@ -52,7 +53,7 @@ std::vector<const trial::MoveOutcome*> move_outcomes(std::span<const TrialResult
   return moves;
 }
 
-/// Measures of the error bands of the moves, [move][band], flattened.
+/// Pointers to the measures of all error bands of the moves, [move][band], flattened.
 std::vector<const trial::BandOutcome*> band_outcomes(std::span<const trial::MoveOutcome* const> moves,
                                                      const trial::ErrorBands& bands) {
   std::vector<const trial::BandOutcome*> outcomes;
@@ -62,7 +63,7 @@ std::vector<const trial::BandOutcome*> band_outcomes(std::span<const trial::Move
   return outcomes;
 }
 
-/// Measures of the tolerances of the moves, [move][tolerance], flattened.
+/// The settling times of the moves for all tolerances, [move][tolerance], flattened.
 std::vector<layout::ToleranceRecord> tolerance_records(std::span<const trial::MoveOutcome* const> moves,
                                                        const trial::Tolerances& tolerances) {
   std::vector<layout::ToleranceRecord> records;
@@ -89,7 +90,7 @@ std::vector<layout::TraceRecord> trace_records(std::span<const TrialResult> resu
   return records;
 }
 
-/// Appends the bytes of a part to the bytes of the whole, and frees them in the part.
+/// Appends the bytes of `part` to `whole`, and frees the memory of `part`.
 void append(std::vector<std::byte>& whole, std::vector<std::byte>& part) {
   whole.insert(whole.end(), part.begin(), part.end());
   part = {};

@@ -14,9 +14,9 @@
 
 namespace zerocount::storage {
 
-/// A failed system call: the action and the reason.
+/// A failed system call on a file: what was tried, and why it failed.
 struct IoFailure {
-  std::string_view action;  ///< Text that completes "cannot …"
+  std::string_view action;  ///< What was tried, as a text that completes the message "cannot …"
   int error{0};             ///< Error number of the system (errno)
 };
 
@@ -29,11 +29,11 @@ class ByteFile {
  public:
   enum class Mode {
     read,
-    create,  ///< A new, empty file; see create_file().
-    change   ///< An existing file, to read and write.
+    create,  ///< Creates a new, empty file; see create_file().
+    change   ///< Opens an existing file to read and write.
   };
 
-  /// @param so_far bytes written to the file earlier.
+  /// Opens the file. @param so_far bytes written to the file earlier.
   /// @throws Failure (machine_failed) with the path and the system's reason if it cannot be opened.
   ByteFile(std::filesystem::path path, Mode mode, WrittenBytes so_far = {});
 
@@ -46,13 +46,13 @@ class ByteFile {
   void write(std::uint64_t offset, std::span<const std::byte> bytes,
              Rewritten rewritten = Rewritten::in_part);
   void resize(std::uint64_t size);
-  /// Reads without a record of the failure, so that several threads can read at a time. Nothing may have been
-  /// written. @return the failure
+  /// Reads bytes as read() does, but does not record a failure, so that several threads can read at a time.
+  /// Only for a file to which nothing has been written. @return the failure; empty on success
   std::optional<IoFailure> read_unrecorded(std::uint64_t offset, std::span<std::byte> bytes) const;
   /// Closes the file, after flushing it to the disk and dropping it from the page cache.
   void close(Flush flush = Flush::now);
 
-  /// Records a failure that occurred elsewhere, unless there was one before.
+  /// Records a failure that occurred elsewhere as the failure of this file, unless it has one already.
   void note(const IoFailure& failure);
   const std::optional<IoFailure>& failure() const { return failure_; }
 

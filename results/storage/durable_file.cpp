@@ -23,20 +23,20 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Whether the error means that the file system has no fsync for directories, so that nothing more can be
-/// done.
+/// Whether the error number (errno) means that the file system has no fsync for directories, so that nothing
+/// more can be done.
 bool has_no_fsync(int error) {
   return error == EINVAL || error == EOPNOTSUPP || error == ENOSYS;
 }
 
-/// Flushes the directory entry `path` to the disk.
+/// Flushes the directory entry of `path` to the disk, so that the name survives a crash.
 void synchronise_name(const fs::path& path) {
   const FileDescriptor directory(::open(directory_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!directory.valid() || (::fsync(directory.get()) != 0 && !has_no_fsync(errno)))
     fail_with(path, "bring its name to the disk", errno);
 }
 
-/// The status of the regular file `path` that is to be replaced; nothing if there is none.
+/// The status of the regular file at `path` that is to be replaced; empty if there is none.
 std::optional<struct stat> file_to_replace(const fs::path& path) {
   struct stat there {};
   if (::lstat(path.c_str(), &there) != 0) return std::nullopt;
@@ -54,8 +54,8 @@ std::optional<struct stat> file_to_replace(const fs::path& path) {
   return there;
 }
 
-/// Gives the file the owner and group of the one that it replaces, as far as the system allows, and its
-/// permissions.
+/// Gives the file at `path` the permissions of the file that it replaces and, as far as the system allows,
+/// its owner and group.
 void take_permissions(const fs::path& path, const struct stat& replaced) {
   [[maybe_unused]] const int refused = ::lchown(path.c_str(), replaced.st_uid, replaced.st_gid);
   constexpr mode_t permissions = S_IRWXU | S_IRWXG | S_IRWXO;

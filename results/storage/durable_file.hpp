@@ -10,14 +10,14 @@
 
 namespace zerocount::storage {
 
-/// Time at which a file that is closed is brought to the disk.
+/// When the contents of a file that is closed are flushed to the disk.
 enum class Flush {
   now,
   later  ///< The caller brings the file to the disk by synchronise(), or by Flush::now when the file is
          ///< closed again.
 };
 
-/// A POSIX file descriptor that its destructor closes.
+/// Owner of an open POSIX file descriptor; the destructor closes it.
 class FileDescriptor {
  public:
   FileDescriptor() = default;
@@ -42,7 +42,7 @@ class FileDescriptor {
   int number_{-1};
 };
 
-/// Name of a file while it is written: PATH.part. A file named PATH is therefore always complete, even if a
+/// Name of a file while it is written: PATH.part. A file named PATH is therefore always complete, even if the
 /// process that wrote it was killed.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
@@ -51,17 +51,18 @@ std::filesystem::path part_of(const std::filesystem::path& path);
 /// @throws Failure (machine_failed) with the path and the reason.
 FileDescriptor create_file(const std::filesystem::path& path);
 
-/// Checks early, before long work, that `path` can be written.
+/// Checks early, before long work, that publish() will be able to put a file at `path`.
 /// @throws Failure (machine_failed) if publish() would not replace what is there: something other than a
 /// regular file, or a file that is write-protected.
 void require_replaceable(const std::filesystem::path& path);
 
-/// The place of part_of(path), made free as by create_file(). The destructor removes the file there if it
-/// still exists, so that a failed write leaves nothing on the disk.
+/// Owner of the unfinished file part_of(path). The constructor removes a file that an interrupted process
+/// left there, as create_file() does. The destructor removes the file if it still exists, so that a failed
+/// write leaves nothing on the disk.
 class UnfinishedFile {
  public:
-  /// @throws Failure (machine_failed) if something other than a regular file has that name; see also
-  /// require_replaceable().
+  /// Makes the place free. @throws Failure (machine_failed) if something other than a regular file has that
+  /// name; see also require_replaceable().
   explicit UnfinishedFile(const std::filesystem::path& path);
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
@@ -73,7 +74,7 @@ class UnfinishedFile {
   std::filesystem::path part_;
 };
 
-/// True if `path` names the open file itself, not a link to it.
+/// Whether `path` names the open file itself, not a link to it.
 bool is_named(const FileDescriptor& file, const std::filesystem::path& path);
 
 /// Renames the finished and flushed file part_of(path) to `path` and flushes the directory. An existing file
@@ -87,7 +88,7 @@ void publish(const std::filesystem::path& path);
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void synchronise(const std::filesystem::path& path, const FileDescriptor& file);
 
-/// Writes all of `text` at the file's position; `path` is its name in messages.
+/// Writes all of `text` at the file's current position; `path` is the file's name in error messages.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void write_all(const std::filesystem::path& path, const FileDescriptor& file, std::string_view text);
 
@@ -95,24 +96,28 @@ void write_all(const std::filesystem::path& path, const FileDescriptor& file, st
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void replace_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Creates the directory and its parents, and flushes their entries to the disk.
+/// Creates the directory and its missing parents, and flushes their directory entries to the disk.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void make_directory(const std::filesystem::path& path);
 
-/// @throws Failure (machine_failed): `path`, which is to be created, names something other than a regular
-/// file.
+/// Throws the error for a path that is to be created but names something other than a regular file.
+/// @throws Failure (machine_failed)
 [[noreturn]] void fail_irregular(const std::filesystem::path& path);
 
-/// @throws Failure (machine_failed): the contents read back differ from the contents written.
+/// Throws the error for a file whose contents, read back, differ from the contents written. @param what what
+/// differs, for the message.
+/// @throws Failure (machine_failed)
 [[noreturn]] void fail_read_back(const std::filesystem::path& path, std::string_view what);
 
-/// @throws Failure (machine_failed): "PATH: cannot ACTION: reason of `error`" (an errno).
+/// Throws the error "PATH: cannot ACTION: reason". @param error error number of the system (errno), which
+/// gives the reason.
+/// @throws Failure (machine_failed)
 [[noreturn]] void fail_with(const std::filesystem::path& path, std::string_view action, int error);
 
 /// A temporary folder; the destructor removes it with its contents.
 class TemporaryFolder {
  public:
-  /// @throws Failure (machine_failed) with the path and the system's reason.
+  /// Creates the folder. @throws Failure (machine_failed) with the path and the system's reason.
   TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -125,16 +130,16 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A place for one temporary folder at a time. Another thread may close it at any time, for example before
-/// that thread ends the process.
+/// Holder of at most one temporary folder at a time. Another thread may call close() at any time, for example
+/// before that thread ends the process.
 class ScratchFolder {
  public:
-  /// Makes an empty folder in place of the previous one, and returns its path.
+  /// Creates an empty temporary folder, removes the previous one, and returns the new path.
   /// @throws as TemporaryFolder(), and Failure (interrupted) after close()
   std::filesystem::path make();
-  /// Removes the folder.
+  /// Removes the temporary folder; make() can create another one.
   void remove();
-  /// Removes the folder for good, although another thread may be writing in it.
+  /// Removes the temporary folder for good, even if another thread may be writing in it.
   void close();
 
  private:

@@ -78,7 +78,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view trailer_start = "zerocount-seal sha256 ";
-/// The last bytes of the file, as many as a trailer has.
+/// The last bytes of the open file, as many as a checksum trailer has.
 std::string read_trailer(const fs::path& path, const FileDescriptor& file) {
   std::string found(checksum_trailer_length, '\0');
   const std::size_t size = size_of_file(path, file);

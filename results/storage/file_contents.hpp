@@ -13,29 +13,32 @@
 /// and the system's reason.
 namespace zerocount::storage {
 
-/// Up to `size` bytes of a file from `offset` on, fewer at its end. Empty if it cannot be read or is no
-/// regular file; a pipe, say, is not waited for.
+/// Up to `size` bytes of a file from `offset` on, fewer if the file ends before. Empty if the file cannot be
+/// read or is not a regular file; the function does not wait for a pipe, for instance.
 std::string bytes_at(const std::filesystem::path& path, std::size_t offset, std::size_t size);
 
 std::size_t size_of_file(const std::filesystem::path& path, const FileDescriptor& file);
 
-/// Reads `bytes.size()` bytes at the file position; fewer only at the end of the file.
+/// Reads `bytes.size()` bytes at the current position of an open file; fewer only at its end. @returns the
+/// number of bytes read. @param path name of the file in error messages.
 std::size_t read_some(const std::filesystem::path& path, const FileDescriptor& file,
                       std::span<std::byte> bytes);
 
-/// Reads all of `bytes`, from `offset` on. Several threads can read at a time.
+/// Fills `bytes` from an open file, from `offset` on. Several threads can read at a time. @param path name of
+/// the file in error messages.
 void read_at(const std::filesystem::path& path, const FileDescriptor& file, std::uint64_t offset,
              std::span<std::byte> bytes);
 
-/// SHA-256 of the next `length` bytes of the file. The file position is behind them afterwards.
+/// SHA-256 of the next `length` bytes of an open file from its current position, which is behind them
+/// afterwards. @param path name of the file in error messages.
 hash::Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length);
 
 /// Length of the checksum trailer in bytes: the text "zerocount-seal sha256 ", 64 hexadecimal digits and a
 /// line feed.
 inline constexpr std::size_t checksum_trailer_length = 22 + 64 + 1;
 
-/// The trailer at the end of a finished file, with the SHA-256 of all bytes before it. HDF5 reads the end of
-/// its data from its own header and ignores the trailer.
+/// The text that is appended to a finished file, with the SHA-256 of all bytes before it. HDF5 reads the end
+/// of its data from its own header and ignores the trailer.
 ///
 /// HDF5's own checksums do not cover texts and parts of the index, and the library can crash on a damaged
 /// file. Therefore the trailer is checked before the library opens a file.
@@ -43,11 +46,11 @@ std::string checksum_trailer(const hash::Sha256& checksum);
 
 enum class ChecksumState { valid, missing, wrong };
 
-/// Reads the whole file and compares it with its checksum trailer.
+/// Reads the whole file and compares it with the checksum in its trailer.
 /// @throws Failure (machine_failed) if the file cannot be read.
 ChecksumState check_checksum(const std::filesystem::path& path);
 
-/// Calls check_checksum() and throws unless the file is valid.
+/// Checks the file with check_checksum().
 /// @throws Failure: bad_data if the checksum trailer is missing or wrong, machine_failed if the file cannot
 /// be read.
 void require_valid_checksum(const std::filesystem::path& path);
@@ -59,8 +62,9 @@ void require_valid_checksum(const std::filesystem::path& path);
 /// @throws Failure (machine_failed) with the path and the reason
 void publish_compared(const std::filesystem::path& path, const hash::Sha256& checksum);
 
-/// The SHA-256 that the trailer of a valid file records, 64 hexadecimal digits: it identifies the contents.
-/// @throws Failure as require_valid_checksum, without reading more than the trailer.
+/// The SHA-256 that the trailer of a valid file records, as 64 hexadecimal digits. It identifies the
+/// contents. The contents themselves are not read.
+/// @throws Failure as require_valid_checksum() does for a missing trailer or an unreadable file.
 std::string recorded_checksum(const std::filesystem::path& path);
 
 }  // namespace zerocount::storage

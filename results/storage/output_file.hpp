@@ -26,8 +26,8 @@ class OutputFile {
   void finish();
   /// Writes the checksum trailer (see file_contents.hpp), then finishes the file as finish() does.
   void finish_with_checksum();
-  /// Renames the finished file to its final name; replaces an existing file. Fails if another process has put
-  /// its own file in place of this one.
+  /// Renames the finished file from PATH.part to its final name PATH; replaces an existing file. Fails if
+  /// another process has put its own file in place of PATH.part.
   void publish();
 
  private:
@@ -35,9 +35,10 @@ class OutputFile {
 
   std::filesystem::path path_;
   std::filesystem::path part_;
-  FileDescriptor file_;  ///< Open until the end, so that no other file can be mistaken for this one
+  FileDescriptor file_;  ///< Open file; it stays open until the end, so that no other file can be mistaken
+                         ///< for this one
   std::string buffer_;
-  std::size_t size_{0};  ///< Bytes passed to the system
+  std::size_t size_{0};  ///< Number of bytes written to the file so far
   hash::Sha256Hash written_;
 };
 

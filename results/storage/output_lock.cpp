@@ -62,7 +62,8 @@ fs::path own_file(fs::path output) {
   return output.replace_filename(name);
 }
 
-/// Takes "-TEXT" from the end of `text`.
+/// Removes "-TEXT", the last part of an owner file's name, from the end of `text`. @returns TEXT; empty if
+/// there is no "-".
 std::optional<std::string_view> take_last(std::string_view& text) {
   const std::size_t dash = text.rfind('-');
   if (dash == std::string_view::npos) return std::nullopt;
@@ -71,7 +72,7 @@ std::optional<std::string_view> take_last(std::string_view& text) {
   return last;
 }
 
-/// The owner that the name of an owner file contains; empty for the name of any other file.
+/// The owner of an output that the name of an owner file describes; empty for the name of any other file.
 std::optional<Owner> owner_of(const fs::path& file, const std::string& prefix) {
   const std::string name = file.filename().string();
   if (!name.starts_with(prefix)) return std::nullopt;
@@ -95,7 +96,7 @@ std::vector<fs::path> owner_files(const fs::path& output) {
   return files;
 }
 
-/// Whether the system knows that the process has ended.
+/// Whether the system knows that the owner's process has ended. False for a process of another computer.
 bool has_ended(const Owner& owner) {
   return owner.machine == this_machine() && ::kill(static_cast<pid_t>(owner.process), 0) != 0 &&
          errno == ESRCH;
@@ -111,7 +112,8 @@ std::optional<std::int64_t> time_of(const fs::path& file) {
   return status.st_mtim.tv_sec * second + status.st_mtim.tv_nsec;
 }
 
-/// Waits until it is known whether the owner of `file` lives.
+/// Waits until it is known whether the owner of the lock file `file` lives: it has renewed the file, or has
+/// not done so within the patience. @returns whether it lives.
 bool shows_itself(const fs::path& file, const Heartbeat& heartbeat) {
   const std::optional<std::int64_t> before = time_of(file);
   const auto deadline = std::chrono::steady_clock::now() + heartbeat.patience;
@@ -191,7 +193,7 @@ bool is_owned(const fs::path& output) {
 
 namespace {
 
-/// Opens a file without following a link, and without waiting for the other end of a pipe.
+/// Opens a lock file without following a link, and without waiting for the other end of a pipe.
 FileDescriptor open_lock(const std::filesystem::path& path) {
   FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
   if (!file.valid() && (errno == ELOOP || errno == EISDIR || errno == ENXIO)) fail_irregular(path);
@@ -202,8 +204,8 @@ FileDescriptor open_lock(const std::filesystem::path& path) {
   return file;
 }
 
-/// Tries for a moment to get the lock, because lock_state() of another process holds it while it looks.
-/// @returns errno, or 0.
+/// Tries to get an flock on the file for a short time, because lock_state() of another process may hold it
+/// for a moment. @returns 0, or the error number (errno).
 int lock(const FileDescriptor& file) {
   constexpr int tries = 5;
   for (int i = 1;; ++i) {
@@ -213,7 +215,8 @@ int lock(const FileDescriptor& file) {
   }
 }
 
-/// Writes this_machine() to the lock file. A failure does not matter, because the lock holds without it.
+/// Writes this_machine() to the lock file, for lock_state(). A failure does not matter, because the lock
+/// holds without it.
 void name_machine(const FileDescriptor& file) {
   const std::string machine = this_machine();
   if (::ftruncate(file.get(), 0) != 0) return;
@@ -226,8 +229,8 @@ std::string machine_in(const FileDescriptor& file) {
   return size < 0 ? std::string() : std::string(text.data(), static_cast<std::size_t>(size));
 }
 
-/// Whether the error means that flock(2) fails because a network file system has no locks on its server, or
-/// is mounted without them.
+/// Whether the error number (errno) means that flock(2) fails because a network file system has no locks on
+/// its server, or is mounted without them.
 bool has_no_flock(int error) {
   return error == EOPNOTSUPP || error == ENOSYS || error == ENOLCK || error == EINVAL;
 }

@@ -10,14 +10,15 @@
 
 namespace zerocount::storage {
 
-/// Name of this computer that is valid until it restarts. Processes that see each other by their process
-/// numbers get the same name.
+/// Name of this computer and its set of visible processes, valid until the computer restarts. Processes that
+/// see each other by their process numbers get the same name.
 std::string this_machine();
 
-/// Timing by which an owner shows that it is alive, and by which others wait for that.
+/// Timing of the owner lock: how often an owner renews its file to show that it is alive, and how long others
+/// wait for that.
 struct Heartbeat {
   std::chrono::milliseconds interval{20'000};
-  /// An owner that has not shown itself for this time has ended.
+  /// Time without a renewal after which other processes take an owner for ended
   std::chrono::milliseconds patience{90'000};
 };
 
@@ -35,7 +36,7 @@ struct Heartbeat {
 /// process with exit code machine_failed at the next heartbeat: two must not write one output.
 class OwnerLock {
  public:
-  /// Waits for up to `patience` if there is the file of another owner.
+  /// Takes the lock. Waits for up to `patience` if there is the file of another owner.
   /// @throws Failure (machine_failed) if that owner lives, or the file cannot be made.
   explicit OwnerLock(const std::filesystem::path& output, Heartbeat heartbeat = {});
 
@@ -55,20 +56,22 @@ class OwnerLock {
   std::jthread heart_;
 };
 
-/// Whether an owner has shown itself lately, by the clock of this machine.
+/// Whether an owner of the output has renewed its file lately, by the clock of this computer.
 bool is_owned(const std::filesystem::path& output);
 
-/// Exclusive lock on an output: flock on the file OUTPUT.lock with this_machine(), which the destructor
-/// removes. The system releases the lock if the process dies. On a file system without flock, an OwnerLock.
+/// Exclusive lock on an output file: flock on the file OUTPUT.lock, which contains this_machine() and which
+/// the destructor removes. The system releases the lock if the process dies. On a file system without flock,
+/// an OwnerLock replaces it.
 class OutputLock {
  public:
-  /// @throws Failure (machine_failed) if another run holds the lock or the lock file cannot be created.
+  /// Takes the lock. @throws Failure (machine_failed) if another run holds the lock or the lock file cannot
+  /// be created.
   explicit OutputLock(const std::filesystem::path& output);
   OutputLock(const OutputLock&) = delete;
   OutputLock& operator=(const OutputLock&) = delete;
   ~OutputLock();
 
-  /// The lock that replaces flock; empty if the file system has flock.
+  /// The OwnerLock that replaces flock on this file system; empty if the file system has flock.
   const std::optional<OwnerLock>& owner() const { return owner_; }
 
  private:
@@ -77,11 +80,11 @@ class OutputLock {
   std::optional<OwnerLock> owner_;
 };
 
-/// Whether a process has an output locked.
+/// Whether a process holds the lock on an output file.
 enum class LockState {
   free,
   held,
-  unknown  ///< There is a lock file of another machine, whose locks may not be seen here
+  unknown  ///< There is a lock file of another computer, whose locks may not be visible here
 };
 LockState lock_state(const std::filesystem::path& output);
 

@@ -15,22 +15,24 @@ class Timeline;
 
 namespace zerocount::storage {
 
-/// Manner in which bytes of a file may be written again: some of them, or all or none as with a chunk.
+/// Manner in which a range of bytes in a file may be written again later: some of its bytes (in_part), or all
+/// or none of them (as_a_whole), as for a chunk.
 enum class Rewritten { in_part, as_a_whole };
 
-/// Record of the bytes written to a file, to prove that they are there. For bytes that are rewritten as a
-/// whole only a hash is kept, so that memory does not grow with the data. Other bytes are kept themselves.
+/// Record of the bytes written to a file, to prove later that the file contains them. For ranges that are
+/// rewritten only as a whole, just a hash is kept, so that memory does not grow with the data. Other bytes
+/// are kept themselves.
 class WrittenBytes {
  public:
   void add(std::uint64_t offset, std::span<const std::byte> bytes, Rewritten rewritten);
-  /// Notes that the file ends at `size`.
+  /// Records that the file was cut or extended to `size` bytes.
   void cut(std::uint64_t size);
-  /// The pieces of which only the hash is known, without the bytes that are rewritten in part.
+  /// A record with only the ranges whose hash is kept, without the bytes that may be rewritten in part.
   WrittenBytes hashed() const;
 
-  /// Reads the whole closed file and compares it. Several threads read and compare.
+  /// Reads the whole closed file and compares it with this record. Several threads read and compare.
   /// @return the SHA-256 of the file
-  /// @param timeline gets the spans of reading; null: none
+  /// @param timeline records the threads' reading; null: no record
   /// @throws Failure (machine_failed) if anything differs or is missing, or the file cannot be read
   hash::Sha256 require_in(const std::filesystem::path& path, timeline::Timeline* timeline = nullptr) const;
 
@@ -38,11 +40,12 @@ class WrittenBytes {
   struct Piece {
     std::size_t size{0};
     std::size_t hash{0};
-    std::vector<std::byte> bytes{};  ///< Bytes of the piece; empty if only the hash is known
+    std::vector<std::byte> bytes{};  ///< Bytes of the range; empty if only the hash is kept
   };
   void clear(std::uint64_t first, std::uint64_t end);
 
-  std::map<std::uint64_t, Piece> pieces_;  ///< Pieces by offset, without overlaps
+  std::map<std::uint64_t, Piece> pieces_;  ///< Ranges of written bytes, by offset in the file, without
+                                           ///< overlaps
 };
 
 }  // namespace zerocount::storage

@@ -11,34 +11,34 @@
 
 namespace zerocount::timeline {
 
-/// Whether the work of a span can be done by one thread at a time, or by several.
+/// Whether only one thread at a time can do the work of a span (serial), or several can (parallel).
 enum class Work { serial, parallel };
 
-/// Record of the work of the program's threads over time. Any thread may add spans.
+/// Record of the work of the program's threads over time. Any thread may add to it.
 class Timeline {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Work of a thread from `begin` to `end`.
+  /// A time span, from `begin` to `end`, in which one thread did one kind of work.
   struct Span {
     std::string_view name;
     Work work{Work::serial};
-    std::int64_t trials{0};  ///< Number of trials worked on
+    std::int64_t trials{0};  ///< Number of trials of the study that the work concerned; 0 for other work
     Clock::time_point begin{};
     Clock::time_point end{};
     double processor_seconds{0.0};  ///< Processor time of the thread, s; less than the duration if it waited
   };
   void add(const Span& span);
 
-  /// The spans in the Trace Event Format ("X" events), which Perfetto and
-  /// chrome://tracing show: a row for each thread, times in µs (`tdur`: of the processor), and
-  /// the kind of work as the category.
+  /// The recorded spans as text in the Trace Event Format ("X" events), which Perfetto and chrome://tracing
+  /// show: a row for each thread, times in µs (`tdur` is processor time), and the kind of work as the
+  /// category.
   std::string trace_events() const;
 
  private:
   struct Event {
     Span span;
-    int thread;  ///< Number of the thread, in order of first appearance
+    int thread;  ///< Number of the thread, in the order in which threads first added a span
   };
 
   mutable std::mutex mutex_;
@@ -47,13 +47,13 @@ class Timeline {
   std::vector<Event> events_;
 };
 
-/// Whether a text begins as the text of a timeline does.
+/// Whether a text begins like the text of a timeline, as trace_events() makes it.
 bool is_timeline(std::string_view text);
 
 /// Processor time of the calling thread so far, s.
 double processor_seconds();
 
-/// Adds the time between its construction and destruction to a timeline as a span.
+/// Measures the time between its construction and destruction, and adds it to a timeline as a span.
 class TimeSpan {
  public:
   /// @param timeline may be null; then nothing is done. @param name must live as long as the timeline.

@@ -17,8 +17,9 @@
 
 namespace zerocount::batch {
 
-/// All kernels. @tparam Width number of doubles in a vector. @tparam EventChains number of vectors side by
-/// side in the steps that locate events.
+/// All inner loops of the batch engine, for one instruction set. @tparam Width number of doubles in a vector.
+/// @tparam EventChains number of vectors that are processed side by side in integration steps that locate
+/// events.
 template <int Width, int EventChains>
 inline constexpr Kernels kernels_with{
     .lanes_at_stop = lanes_at_stop_kernel<Simd<Width, 1>>,

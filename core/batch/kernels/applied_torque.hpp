@@ -4,32 +4,35 @@
 #include "core/batch/kernels/series.hpp"
 #include "core/motion/disturbance_formulas.hpp"
 
-/// The torque on the rotor as a series in the fraction of a step.
+/// The torque on the rotor, where it varies, as a power series in the fraction of an integration step.
 namespace zerocount::batch {
 
-/// A torque that varies (CourseLanes). Over a short travel x a ripple A·s is a parabola, A·(s + c·qx −
-/// s·(qx)²/2), whose error is below A·|qx|³/6.
+/// Taylor series over one step of a torque on the rotor that varies in time (CourseLanes). Over a short
+/// travel x, a torque ripple A·sin(q·θ + φ), with s and c the sine and cosine at the start, is approximated
+/// by the parabola A·(s + c·qx − s·(qx)²/2), whose error is below A·|qx|³/6.
 template <class P>
 struct VaryingTorque {
   using Mask = typename P::Mask;
-  P fixed[batch_order];  ///< Series of the torque without the ripples; but [0] is the whole torque, ripples
-                         ///< included.
-  P velocity[batch_order];  ///< Coefficients of ω·h, in the unit of the motion's series
+  P fixed[batch_order];  ///< Coefficients of the torque without its ripples. Exception: fixed[0] is the whole
+                         ///< torque, ripples included.
+  P velocity[batch_order];  ///< Coefficients of the rotor's ω·h, with h the length of the step, in the unit
+                            ///< of length of the series
   int ripples;
   P amplitude[max_lane_ripples];
-  P per_travel[max_lane_ripples];  ///< q in the unit of `velocity`
+  P per_travel[max_lane_ripples];  ///< Wave number q of each ripple: phase of the ripple per unit of travel
   motion::WaveSeriesOf<P[batch_order]> waves[max_lane_ripples];
 
   Mask parabolic;      ///< Lanes whose ripples are approximated by parabolas.
-  bool has_parabolas;  ///< Some lane approximates its ripples by parabolas.
-  bool has_waves;      ///< Some lane expands its ripples as waves.
-  P linear;            ///< Σ A·c·q of the parabolas
-  P quadratic;         ///< −Σ A·s·q²/2 of the parabolas
+  bool has_parabolas;  ///< Whether any lane approximates its ripples by parabolas
+  bool has_waves;      ///< Whether any lane expands its ripples exactly, as sine waves
+  P linear;            ///< Coefficient of the travel in the parabolas' sum: Σ A·c·q
+  P quadratic;         ///< Coefficient of the squared travel in the parabolas' sum: −Σ A·s·q²/2
   P cubic;             ///< Σ |A·q³|/6, which bounds the error of the parabolas per |travel|³
   P travel[batch_order];
-  P reach;  ///< Σ |coefficient of the travel|, a bound of the travel
+  P reach;  ///< Upper bound of the travel so far in the step: Σ |coefficient of the travel|
 
-  /// Approximates the ripples of these lanes by parabolas.
+  /// Selects the lanes whose ripples are approximated by parabolas, and computes the coefficients of these
+  /// parabolas.
   ZEROCOUNT_ALWAYS_INLINE void set_parabolic(const Mask& lanes) {
     parabolic = lanes;
     has_parabolas = ripples > 0 && lanes.any();
@@ -44,7 +47,8 @@ struct VaryingTorque {
     }
   }
 
-  /// Coefficient k of the torque. Call in ascending order of k. @param velocity_k coefficient k of ω·h.
+  /// Computes coefficient k of the torque's series. Must be called in ascending order of k. @param velocity_k
+  /// coefficient k of ω·h.
   ZEROCOUNT_ALWAYS_INLINE P coefficient(int k, const P& velocity_k) {
     velocity[k] = velocity_k;
     P torque = fixed[k];
@@ -78,8 +82,8 @@ struct VaryingTorque {
   }
 };
 
-/// Loads the torque for a step of h (s). @param unit unit of the torque's coefficients, 1/(N m). @param
-/// travel_unit unit of VaryingTorque::velocity, rad.
+/// Loads the series of the torque for a step of length h (s). @param unit factor that converts a torque (N m)
+/// to the unit of the series, 1/(N m). @param travel_unit one unit of length of VaryingTorque::velocity, rad.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, const P& h, const P& unit,
                                          const P& travel_unit, VaryingTorque<P>& torque) {
@@ -105,7 +109,7 @@ ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, 
   torque.set_parabolic(P::Mask::of_bits(0));
 }
 
-/// Bound of the change of the torque from its present value within `duration` (s), N m.
+/// Upper bound of the change of the torque on the rotor from its present value within `duration` (s), N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P torque_range(const BatchState& batch, const At& at, const P& duration) {
   const CourseLanes& c = batch.course;
@@ -124,7 +128,8 @@ ZEROCOUNT_ALWAYS_INLINE P torque_range(const BatchState& batch, const At& at, co
   return sum;
 }
 
-/// Rate of the torque per sample time, du/dt·T, at this instant, N m.
+/// Rate of change of the torque on the rotor at this instant, multiplied by the sample time: du/dt·T, N m.
+/// @param omega velocity of the rotor, rad/s.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P torque_rate(const BatchState& batch, const At& at, const P& omega) {
   const CourseLanes& c = batch.course;
@@ -138,8 +143,8 @@ ZEROCOUNT_ALWAYS_INLINE P torque_rate(const BatchState& batch, const At& at, con
   return rate;
 }
 
-/// Whether a polynomial with values of opposite signs at 0 and 1 surely has one zero between them only: it is
-/// monotonic, or its curvature keeps its sign.
+/// Whether it is certain that a polynomial, whose values at 0 and 1 have opposite signs, has exactly one zero
+/// in between: it is monotonic, or its curvature keeps its sign. @param c coefficients, [0] to [order].
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask crosses_once(const P* c, int order) {
   P third(0.0);
@@ -148,7 +153,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask crosses_once(const P* c, int order) {
   return (abs(c[1]) > curvature_bound(c, order)) | (P(2.0) * abs(c[2]) > third);
 }
 
-/// Time since the nominal instant k·T of the last sample, s.
+/// Time since the nominal instant k·T of the last sampling instant, s; it ignores the lateness of samples.
 template <class At>
 ZEROCOUNT_ALWAYS_INLINE typename At::Vector time_since_sample(const BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -165,7 +170,8 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector theta_of(const BatchState& batch, co
                 at.load(m.hook) + at.load(m.elongation) + at.load(m.extension));
 }
 
-/// Adds the lines of a vibration to the series of the torque about the present instant.
+/// Adds the sinusoidal lines of a vibration torque to its Taylor series about the present instant. @param
+/// vibration coefficients of the series in t/T, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void add_lines(const BatchState& batch, const At& at, P* vibration) {
   const CourseLanes& c = batch.course;
@@ -185,7 +191,7 @@ ZEROCOUNT_ALWAYS_INLINE void add_lines(const BatchState& batch, const At& at, P*
   }
 }
 
-/// The torque of one vector of lanes at the present instant; see course_kernel.
+/// Computes the varying torque of one vector of lanes at the present instant; see course_kernel().
 template <class At>
 __attribute__((noinline)) void course_of(BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -231,8 +237,8 @@ __attribute__((noinline)) void course_of(BatchState& batch, const At& at) {
   }
 }
 
-/// Computes the torque of each lane at the present instant, and its series: MotionLanes::torque and
-/// CourseLanes::applied.
+/// Computes the torque on the rotor of each lane at the present instant (MotionLanes::torque), and its Taylor
+/// series (CourseLanes::applied).
 template <class V>
 void course_kernel(BatchState& batch, const LaneSet& lanes) {
   for_each_stretch<V>(lanes, [&](const auto& at) { course_of(batch, at); });

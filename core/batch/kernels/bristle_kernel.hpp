@@ -15,7 +15,7 @@ ZEROCOUNT_ALWAYS_INLINE friction::BristleConstants<P> bristle_of(const BatchStat
           {coulomb, at.load(c.breakaway) - coulomb, at.load(c.per_velocity_squared)}};
 }
 
-/// Mask of the lanes that are at rest under their present torque.
+/// Mask of the lanes whose rotor is at rest on its bristle under the present torque.
 template <class At, class P = typename At::Vector>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask rests_on_bristle(const BatchState& batch, const At& at) {
   const friction::BristleConstants<P> of = bristle_of(batch, at);
@@ -27,7 +27,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask rests_on_bristle(const BatchState& batc
                                             at.load(batch.time.rest));
 }
 
-/// Moves the lanes that are at rest to their next stop. @returns the lanes that are not at rest.
+/// Moves the lanes whose rotor is at rest on its bristle to their next stop, the next instant at which their
+/// torque may change. @returns the lanes that are not at rest.
 template <class P>
 LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   MotionLanes& m = batch.motion;
@@ -51,7 +52,7 @@ LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing for
   return moving;
 }
 
-/// The step of one vector; see bristle_kernel.
+/// Integrates one step of one vector of lanes with a bristle; see bristle_kernel().
 template <bool Fast, class At>
 __attribute__((noinline)) void bristle(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
@@ -119,12 +120,13 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at, Forcing 
   add_events(batch, at, lost_in_steps<P>(batch, at));
 }
 
-/// One step of each moving lane with a bristle: to the next stop, to ω = 0, or as far as the series converge.
-/// Reports beyond_kernel. See friction::Bristle.
+/// One integration step of each moving lane with a bristle. The step ends at the lane's next stop (at which
+/// its torque may change), at ω = 0, or where the Taylor series cease to be accurate. Reports beyond_kernel
+/// for lanes that it cannot compute. See friction::Bristle.
 ///
 /// `Fast` is for lanes whose friction level equals the Coulomb level to the last bit: lanes with Dahl's law,
 /// and lanes far above the Stribeck velocity, with (ω/ωs)² > 64. Their steps end where (ω/ωs)² = 42, because
-/// exp(−42) = 6e-19. For lanes with a second mass see slide_kernel.
+/// exp(−42) = 6e-19. For lanes with a second mass see slide_kernel().
 template <class V, bool Fast>
 void bristle_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

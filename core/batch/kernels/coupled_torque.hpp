@@ -2,29 +2,32 @@
 
 #include "core/batch/kernels/applied_torque.hpp"
 
-/// The torque on a rotor where it varies or a second mass is coupled to it.
+/// The torque on the rotor as a power series, where it varies or a second mass is coupled to the rotor.
 namespace zerocount::batch {
 
-/// The torque of lanes with a Forcing. A second mass acts on the rotor by the torque Ts of its coupling. The
-/// series of δ and ωL give Ts order by order (motion::expand):
+/// Taylor series over one step of the torque on the rotor, where it varies or where a second mass is coupled
+/// to the rotor. The second mass acts on the rotor by the torque Ts of the coupling, with twist δ and
+/// velocity ωL. Their series give Ts order by order (motion::expand):
 ///
 ///   dδ/dt = ω − ωL,   JL·dωL/dt = Ts,   Ts = kL·δ + dL·(ω − ωL).
 template <class P>
 struct ForcedTorque {
   static constexpr bool forced = true;
   Forcing forcing;
-  VaryingTorque<P> alone;    ///< Torque without the load; used only if it varies.
-  P twist[batch_order + 1];  ///< δ, rad
-  P omega[batch_order + 1];  ///< ωL·h, rad
+  VaryingTorque<P> alone;    ///< Torque on the rotor without the coupling torque of the second mass; used
+                             ///< only if it varies.
+  P twist[batch_order + 1];  ///< Coefficients of the coupling's twist δ, rad
+  P omega[batch_order + 1];  ///< Coefficients of ωL·h, with ωL the velocity of the second mass and h the
+                             ///< step, rad
   P change;       ///< Σ k·|coefficient k|, a bound of the torque's rate, in the unit of the torque per step
-  P unit;         ///< Unit of the torque's coefficients, 1/(N m)
-  P travel_unit;  ///< Unit of the rotor's ω·h, rad
-  P stiffness;    ///< kL, N m/rad
-  P damping;      ///< dL/h, N m/rad
-  P acceleration;  ///< h²/JL, rad/(N m)
+  P unit;         ///< Factor that converts a torque (N m) to the unit of the torque's coefficients, 1/(N m)
+  P travel_unit;  ///< One unit of the coefficients of the rotor's ω·h, rad
+  P stiffness;    ///< Stiffness kL of the coupling, N m/rad
+  P damping;      ///< Damping of the coupling divided by the step: dL/h, N m/rad
+  P acceleration;  ///< h²/JL, which converts the coupling torque to an acceleration over the step, rad/(N m)
 
-  /// Coefficient k of the torque. Call in ascending order of k. Coefficient 0 leaves out a torque that stays.
-  /// @param velocity_k coefficient k of the rotor's ω·h.
+  /// Computes coefficient k of the torque's series. Must be called in ascending order of k. Coefficient 0
+  /// leaves out a constant torque. @param velocity_k coefficient k of the rotor's ω·h.
   ZEROCOUNT_ALWAYS_INLINE P coefficient(int k, const P& velocity_k) {
     P torque(0.0);
     if (forcing.varies) torque = alone.coefficient(k, velocity_k);
@@ -41,7 +44,8 @@ struct ForcedTorque {
   }
 };
 
-/// The torque of lanes without a Forcing, which is MotionLanes::torque.
+/// The constant torque on the rotor of lanes without a varying torque and without a second mass,
+/// MotionLanes::torque.
 struct ConstantTorque {
   static constexpr bool forced = false;
 
@@ -51,7 +55,8 @@ struct ConstantTorque {
   }
 };
 
-/// Declared only for its return type: the type of the torque under this forcing.
+/// Overloads that map the type of a forcing to the type of the torque's series; declared only for their
+/// return types.
 template <class P>
 ForcedTorque<P> torque_with(Forcing);
 template <class P>
@@ -61,8 +66,9 @@ template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState&, const At&, Unforced, const P&, const P&, const P&,
                                          ConstantTorque&) {}
 
-/// Loads the torque for a step of h (s). @param unit unit of the torque's coefficients, 1/(N m). @param
-/// travel_unit unit of the rotor's ω·h, rad.
+/// Loads the series of the torque on the rotor for a step of length h (s). @param unit factor that converts a
+/// torque (N m) to the unit of the series, 1/(N m). @param travel_unit one unit of the coefficients of the
+/// rotor's ω·h, rad.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, Forcing forcing, const P& h,
                                          const P& unit, const P& travel_unit, ForcedTorque<P>& torque) {
@@ -80,7 +86,8 @@ ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, 
   torque.acceleration = h * h * at.load(l.per_inertia);
 }
 
-/// The torque on the rotor at this instant, N m. @param omega ω of the rotor, rad/s.
+/// Torque on the rotor at this instant, including the coupling torque of a second mass, N m. @param omega
+/// velocity ω of the rotor, rad/s.
 template <class P, class At, class F>
 ZEROCOUNT_ALWAYS_INLINE P torque_on_rotor(const BatchState& batch, const At& at, F forcing, const P& omega) {
   const P torque = at.load(batch.motion.torque);
@@ -89,8 +96,9 @@ ZEROCOUNT_ALWAYS_INLINE P torque_on_rotor(const BatchState& batch, const At& at,
   return torque - (at.load(l.stiffness) * at.load(l.twist) + at.load(l.damping) * (omega - at.load(l.omega)));
 }
 
-/// Sign of ω from this instant on, as motion::heading_under defines it. @param excess torque on the rotor
-/// minus friction, N m.
+/// Direction in which the rotor moves from this instant on: the sign of ω or, at ω = 0, of its first non-zero
+/// derivative (motion::heading_under). @param omega ω, rad/s. @param excess torque on the rotor minus
+/// friction, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P heading_under(const BatchState& batch, const At& at, Forcing forcing,
                                         const P& omega, const P& excess) {
@@ -99,7 +107,8 @@ ZEROCOUNT_ALWAYS_INLINE P heading_under(const BatchState& batch, const At& at, F
   return select(direction == P(0.0), sign(torque_rate(batch, at, omega)), direction);
 }
 
-/// Mask of the lanes whose load is quiet, as motion::is_quiet defines it.
+/// Mask of the lanes whose second mass is quiet: the coupling torque of any oscillation stays below `torque`
+/// (see motion::is_quiet). @param steady coupling torque without the oscillation, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask load_is_quiet(const BatchState& batch, const At& at, const P& omega,
                                                        const P& torque, const P& steady) {
@@ -109,7 +118,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask load_is_quiet(const BatchState& batch, 
          torque;
 }
 
-/// Lets lanes rest, with their loads, up to the next stop.
+/// Holds the rotors of these lanes at rest, and lets their second masses follow, up to each lane's next stop
+/// (at which its torque may change).
 template <class At, class P = typename At::Vector>
 ZEROCOUNT_ALWAYS_INLINE void halt_to_next_stop(BatchState& batch, const At& at, Forcing forcing) {
   const P zero(0.0);
@@ -123,7 +133,8 @@ ZEROCOUNT_ALWAYS_INLINE void halt_to_next_stop(BatchState& batch, const At& at, 
   at.store(batch.time.time_to_stop, zero);
 }
 
-/// The last two terms of the series of the load at the end of a step, rad; 0 without a load.
+/// Absolute value of the last two terms of the second mass's series at the end of a step, rad; 0 without a
+/// second mass. Estimates the truncation error.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P last_terms_of_load(const ForcedTorque<P>& t) {
   constexpr int last = batch_order;
@@ -131,7 +142,8 @@ ZEROCOUNT_ALWAYS_INLINE P last_terms_of_load(const ForcedTorque<P>& t) {
   return (abs(t.twist[last - 1]) + abs(t.twist[last])) + (abs(t.omega[last - 1]) + abs(t.omega[last]));
 }
 
-/// Stores the load, if any, at the fraction x of a step of h (s), in the lanes of `done`.
+/// Stores the state of the second mass, if any, at the fraction x of a step of length h (s), in the lanes of
+/// `done`.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_load(BatchState& batch, const At& at, const ForcedTorque<P>& t, const P& x,
                                         const P& h, const typename P::Mask& done) {

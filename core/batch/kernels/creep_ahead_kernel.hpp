@@ -5,15 +5,17 @@
 
 namespace zerocount::batch {
 
-/// State of a lane at rest, evaluated from its description (CreepAheadLanes).
+/// State of the contact of a lane at rest, evaluated from the polynomial description of its slow motion
+/// (CreepAheadLanes).
 template <class P>
 struct MotionAhead {
-  P elongation;  ///< xs, rad
-  P extension;   ///< xp, rad
-  P hardening;   ///< xh, rad
+  P elongation;  ///< Elongation xs of the contact's spring, rad
+  P extension;   ///< Plastic extension xp by creep, rad
+  P hardening;   ///< Hardening xh by creep, rad
 };
 
-/// Evaluates the description of the motion at rest, `elapsed` (s) after its start, for the lanes of `wanted`.
+/// Evaluates the polynomial description of the motion at rest at the time `elapsed` (s) after its start, in
+/// the lanes of `wanted`.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE MotionAhead<P> motion_ahead(const BatchState& batch, const At& at, const P& elapsed,
                                                     const typename P::Mask& wanted) {
@@ -39,7 +41,8 @@ ZEROCOUNT_ALWAYS_INLINE MotionAhead<P> motion_ahead(const BatchState& batch, con
   return motion;
 }
 
-/// Moves the lanes of `where` to `elapsed` (s) after the start of their description.
+/// Stores the state `elapsed` (s) after the start of the description (CreepAheadLanes) in the lanes of
+/// `where`, with `time_to_stop` (s) as the time to their next stop.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_ahead(BatchState& batch, const At& at, const P& elapsed,
                                          const P& time_to_stop, const typename P::Mask& where) {
@@ -54,8 +57,8 @@ ZEROCOUNT_ALWAYS_INLINE void store_ahead(BatchState& batch, const At& at, const 
   store(batch.time.time_to_stop, time_to_stop);
 }
 
-/// Mask of the lanes whose description covers the motion up to the next sample, `elapsed` (s) after its
-/// start, and whose torque is still the one under which they came to rest.
+/// Mask of the lanes whose polynomial description (CreepAheadLanes) covers the motion up to the next sample,
+/// `elapsed` (s) after its start, and whose torque is still the one under which they came to rest.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask goes_on_ahead(const BatchState& batch, const At& at,
                                                        const P& elapsed) {
@@ -64,8 +67,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask goes_on_ahead(const BatchState& batch, 
          (at.load(m.torque) == at.load(m.rest_torque)) & (at.load(batch.time.samples_to_stop) == P(1.0));
 }
 
-/// Moves one vector of lanes at rest to the next stop; see creep_ahead_kernel. @returns the lanes that it has
-/// moved.
+/// Moves one vector of lanes at rest to the next stop, as creep_ahead_kernel() does. @returns mask of the
+/// lanes that it has moved.
 template <class At>
 __attribute__((noinline)) typename At::Vector::Mask creep_ahead(BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -75,8 +78,9 @@ __attribute__((noinline)) typename At::Vector::Mask creep_ahead(BatchState& batc
   return goes_on;
 }
 
-/// Moves lanes at rest to their next stop, by the description of their motion (CreepAheadLanes), as long as
-/// their torque stays and the description lasts. @returns the lanes that it has moved.
+/// Moves lanes at rest to their next stop (the next sample) by the polynomial description of their slow
+/// motion (CreepAheadLanes), as long as their torque stays and the description lasts. @returns the lanes that
+/// it has moved.
 template <class V>
 LaneSet creep_ahead_kernel(BatchState& batch, const LaneSet& lanes) {
   LaneSet moved;

@@ -5,7 +5,8 @@
 
 namespace zerocount::batch {
 
-/// The duration (s) of the next piece of lanes with late samples: T + δ_{k+1} − δ_k.
+/// Duration (s) of the next piece of constant amplifier input in lanes with late samples: T + δ_{k+1} − δ_k,
+/// with δ_k the lateness of sample k.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P late_duration(BatchState& batch, const At& at, const P& jitter) {
   DriveLanes& d = batch.drive;
@@ -19,7 +20,8 @@ ZEROCOUNT_ALWAYS_INLINE P late_duration(BatchState& batch, const At& at, const P
   return duration;
 }
 
-/// The next piece of the torque of one vector. @returns the lanes whose torque varies; see drive_kernel.
+/// Passes the converter's torque of one vector of lanes through delay and amplifier, as drive_kernel() does.
+/// @returns mask of the lanes whose torque varies until the next stop.
 template <class At>
 __attribute__((noinline)) typename At::Vector::Mask drive(BatchState& batch, const At& at) {
   using P = typename At::Vector;

@@ -3,11 +3,13 @@
 #include "core/batch/kernels/velocity_step.hpp"
 #include "core/friction/bristles/gms_formulas.hpp"
 
-/// Lanes with elements that stick or slip; see friction::GmsFriction.
+/// Vectorised integration of rotors whose friction consists of elements that stick or slip; see
+/// friction::GmsFriction.
 namespace zerocount::batch {
 
-/// The elements of the lanes of a vector, for the formulas of friction::GmsMotion. Beyond its own a lane has
-/// elements of stiffness, weight and torque 0, which never slip.
+/// Access to the Maxwell-slip elements of one vector of lanes, for the formulas of friction::GmsMotion. A
+/// lane with fewer elements than the vector's maximum is filled up with elements of stiffness, weight and
+/// torque 0, which never slip.
 template <class P>
 struct LaneElements {
   using State = friction::GmsStateOf<P>;
@@ -22,7 +24,7 @@ struct LaneElements {
                    to_mask(at.load(e.slips[i]))};
     }
   }
-  /// The lanes that have an element of this index.
+  /// Mask of the lanes that have an element with the index i.
   ZEROCOUNT_ALWAYS_INLINE typename P::Mask have(int i) const { return count > P(static_cast<double>(i)); }
   template <class Visit>
   ZEROCOUNT_ALWAYS_INLINE void each(Visit visit) const {
@@ -44,7 +46,8 @@ struct LaneElements {
   }
 };
 
-/// Applies the rest rule of friction::GmsFriction to one vector. @returns the lanes at rest.
+/// Applies the rest rule of friction::GmsFriction to one vector of lanes. @returns mask of the lanes whose
+/// rotor is at rest.
 template <class At>
 ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask elements_rest(BatchState& batch, const At& at,
                                                                 Forcing forcing) {
@@ -61,8 +64,8 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask elements_rest(BatchState& batc
   return rests;
 }
 
-/// Moves the lanes that are at rest under their constant torque to their next stop. @returns the lanes that
-/// are not at rest.
+/// Moves the lanes whose rotor is at rest under a constant torque to their next stop, the next instant at
+/// which their torque may change. @returns the lanes that are not at rest.
 template <class P>
 LaneSet elements_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   MotionLanes& m = batch.motion;
@@ -87,10 +90,11 @@ LaneSet elements_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing fo
 template <class P>
 using ElementSeries = friction::GmsSeriesOf<P[batch_order + 1]>;
 
-/// Finds the first slip of an element before the fraction x of the step. @param x is moved there. @param
-/// exact lanes in which the level is as accurate as the torque of the elements. @returns the lanes in which
-/// the first slip is not known: a margin may have a second zero, or the level is not accurate and an element
-/// is near it.
+/// Finds the first instant within the step at which a sticking element begins to slip. @param x fraction of
+/// the step; where an element slips earlier, it is reduced to that instant. @param exact lanes in which the
+/// friction level is known as accurately as the torque of the elements. @returns the lanes in which the first
+/// slip is uncertain: the margin of an element may have a second zero, or the level is not accurate and an
+/// element is near it.
 template <class At, class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask find_first_slip(const LaneElements<P>& elements, const P& coulomb,
                                                          const At& at, const ElementSeries<P>& s,
@@ -124,8 +128,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask find_first_slip(const LaneElements<P>& 
   return unfit;
 }
 
-/// Moves the elements to the fraction x of the step, in the lanes of step.done. @returns the lanes in which
-/// all elements slip.
+/// Advances the torques of the elements to the fraction x of the step, in the lanes of step.done. @returns
+/// mask of the lanes in which all elements slip.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask move(LaneElements<P>& elements, const ElementSeries<P>& s,
                                               const friction::GmsSums<P>& sums, const VelocityStep<P>& step) {
@@ -143,7 +147,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask move(LaneElements<P>& elements, const E
   return slides;
 }
 
-/// The step of one vector; see elements_kernel.
+/// Integrates one step of one vector of lanes with elements that stick or slip; see elements_kernel().
 template <class At>
 __attribute__((noinline)) void move_elements(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
@@ -210,8 +214,10 @@ __attribute__((noinline)) void move_elements(BatchState& batch, const At& at, Fo
   add_events(batch, at, lost_in_steps<P>(batch, at));
 }
 
-/// One step of each moving lane with elements: to the next stop, to ω = 0, to the slip of an element, or as
-/// far as the series converge. Reports beyond_kernel. See friction::GmsMotion.
+/// One integration step of each moving lane with elements that stick or slip. The step ends at the lane's
+/// next stop (at which its torque may change), at ω = 0, at the first slip of an element, or where the Taylor
+/// series cease to be accurate. Reports beyond_kernel for lanes that it cannot compute. See
+/// friction::GmsMotion.
 template <class V>
 void elements_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

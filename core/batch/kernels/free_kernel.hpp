@@ -5,8 +5,9 @@
 
 namespace zerocount::batch {
 
-/// Moves each lane without friction to its next stop, one sample ahead, by the linear map of
-/// friction::free_motion. If `varies`, the torque is CourseLanes::settled plus a decaying lag.
+/// Moves each lane without friction over one sample, to its next stop, by the exact linear map FreeLanes
+/// (friction::free_motion). @param varies whether the torque is CourseLanes::settled plus an exponentially
+/// decaying lag; otherwise it is constant.
 template <class V>
 void free_kernel(BatchState& batch, const LaneSet& lanes, bool varies) {
   for_each_stretch<V>(lanes, [&]<class At>(const At& at) {
@@ -28,7 +29,8 @@ void free_kernel(BatchState& batch, const LaneSet& lanes, bool varies) {
   });
 }
 
-/// The step of one vector; see loaded_free_kernel.
+/// Integrates one step of one vector of lanes without friction and with a second mass; see
+/// loaded_free_kernel().
 template <class At>
 __attribute__((noinline)) void move_free_with_load(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
@@ -58,8 +60,9 @@ __attribute__((noinline)) void move_free_with_load(BatchState& batch, const At& 
   add_events(batch, at, lost_in_steps<P>(batch, at));
 }
 
-/// One step of each lane without friction and with a second mass: to the next stop, or as far as the series
-/// converge. Reports beyond_kernel. See friction::NoFriction::step_coupled.
+/// One integration step of each lane without friction and with a second mass. The step ends at the lane's
+/// next stop (at which its torque may change), or where the Taylor series cease to be accurate. Reports
+/// beyond_kernel for lanes that it cannot compute. See friction::NoFriction::step_coupled.
 template <class V>
 void loaded_free_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

@@ -4,23 +4,28 @@
 
 namespace zerocount::batch {
 
-/// The kernels, compiled for one instruction set.
+/// Function pointers to the inner loops (kernels) of the batch engine, compiled for one instruction set.
 struct Kernels {
   using Move = void (*)(BatchState&, const LaneSet&, Forcing);
   using Rest = LaneSet (*)(BatchState&, const LaneSet&, Forcing);
-  LaneSet (*lanes_at_stop)(const BatchState&);  ///< Lanes at a stop, and lanes without a trial.
-  LaneSet (*fast_lanes)(const BatchState&);     ///< Lanes faster than ContactLanes::fast_velocity.
+  LaneSet (*lanes_at_stop)(const BatchState&);  ///< Returns the lanes that have reached a sampling instant,
+                                                ///< and those without a trial.
+  LaneSet (*fast_lanes)(const BatchState&);     ///< Returns the lanes whose rotor is faster than
+                                                ///< ContactLanes::fast_velocity.
   LaneSet (*creep_ahead)(BatchState&, const LaneSet&);
   LaneSet (*noisy_rest)(BatchState&, const LaneSet&, const LaneSet& active, int max_samples);
-  void (*sample)(BatchState&, const LaneSet&);         ///< One sample with the PID law alone.
-  void (*sample_blocks)(BatchState&, const LaneSet&);  ///< One sample with the controller's blocks.
-  /// One sample with the PID law alone and a noisy encoder.
+  void (*sample)(BatchState&, const LaneSet&);         ///< Processes one sampling instant: controller with
+                                                       ///< the PID law alone.
+  void (*sample_blocks)(BatchState&, const LaneSet&);  ///< Processes one sampling instant: controller with
+                                                       ///< blocks beyond the PID law.
+  /// Processes one sampling instant: PID law alone, encoder with noise.
   void (*sample_noisy)(BatchState&, const LaneSet&);
   void (*sample_noisy_blocks)(BatchState&, const LaneSet&);
-  void (*sample_given)(BatchState&, const LaneSet&);  ///< One sample as LaneLoop has decided it.
+  void (*sample_given)(BatchState&, const LaneSet&);  ///< Processes one sampling instant with the torque that
+                                                      ///< each lane's LaneLoop has decided.
   Move stick_start;
   Move stick_step;
-  Move stick_event;  ///< A step that locates its events.
+  Move stick_event;  ///< Integration step of a sticking hook that locates the first event and ends there.
   Move slide_fast;
   Move slide_slow;
   Rest bristle_rest;

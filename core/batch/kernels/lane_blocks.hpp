@@ -5,33 +5,35 @@
 
 namespace zerocount::batch {
 
-/// Input of the control law at a sample.
+/// Input of the control law at a sampling instant.
 template <class P>
 struct ControlInput {
   using Mask = typename P::Mask;
-  P error, last_error;  ///< counts
-  P count, change;  ///< Count, and its change since the last sample, counts. CountsBefore gives the change at
-                    ///< the first sample.
-  Mask counted;     ///< There has been a sample before
+  P error, last_error;  ///< Error (target − count) at this sample and at the last sample, counts
+  P count, change;  ///< Count of the encoder at this sample, and its change since the last sample, counts. At
+                    ///< the first sample CountsBefore gives the change.
+  Mask counted;     ///< Mask of the lanes that have had a sample before this one
 };
 
-/// Output of the compensators at a sample.
+/// Result of the controller blocks that act before the control law: dead zone, standstill and torque hold.
 template <class P>
 struct Compensated {
   using Mask = typename P::Mask;
-  P acting_error;  ///< e′, counts
-  Mask stands;     ///< The standstill gains act
-  Mask held;       ///< The torque is held, and the blocks pause
+  P acting_error;  ///< Error e′ after the dead zone, counts
+  Mask stands;     ///< Mask of the lanes in which the standstill gains replace the PID gains
+  Mask held;       ///< Mask of the lanes in which the torque is held, so that the controller's states stay as
+                   ///< they are
 };
 
-/// Stores a new value, except where the torque is held.
+/// Stores a new value in `lanes`, except in the lanes of `held`, whose torque is held.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_unless(const typename P::Mask& held, const At& at, Lanes& lanes,
                                           const P& value) {
   at.store(lanes, select(held, at.load(lanes), value));
 }
 
-/// Applies the dead zone of the error, and updates the states of standstill and hold.
+/// Applies the dead zone to the error, and updates whether the standstill gains act and whether the torque is
+/// held.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE Compensated<P> compensated(BatchState& batch, const At& at,
                                                    const ControlInput<P>& in) {
@@ -57,7 +59,8 @@ ZEROCOUNT_ALWAYS_INLINE Compensated<P> compensated(BatchState& batch, const At& 
   return {loop::acting_error(load_struct(at, b.deadband), in.error), stands, held};
 }
 
-/// The control law with the conditions on its integral, PID or cascade by lane. @returns its torque, N m.
+/// Torque of the control law, PID or cascade depending on the lane, N m. Updates its integral under the
+/// conditions of deadband, zone, leak and range.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P law_torque(BatchState& batch, const At& at, const ControlInput<P>& in,
                                      const Compensated<P>& now) {
@@ -84,7 +87,8 @@ ZEROCOUNT_ALWAYS_INLINE P law_torque(BatchState& batch, const At& at, const Cont
                 loop::pid_torque(state.integral, kp, now.acting_error, kd, d));
 }
 
-/// The torque after the filters, N m.
+/// Torque after the controller's filters (biquads in series), N m. The filters' states stay in lanes whose
+/// torque is held.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P filtered_torque(BatchState& batch, const At& at, P torque,
                                           const typename P::Mask& held) {
@@ -101,7 +105,7 @@ ZEROCOUNT_ALWAYS_INLINE P filtered_torque(BatchState& batch, const At& at, P tor
   return torque;
 }
 
-/// d̂ of the disturbance observer, N m.
+/// Estimate d̂ of the disturbance observer, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P disturbance(BatchState& batch, const At& at, const ControlInput<P>& in,
                                       const typename P::Mask& held) {
@@ -116,8 +120,9 @@ ZEROCOUNT_ALWAYS_INLINE P disturbance(BatchState& batch, const At& at, const Con
   return estimate;
 }
 
-/// The wanted torque of the controller with its blocks (ControlChain), its dither and the remainder of the
-/// sigma-delta converter, N m. A step has no feed-forward.
+/// Wanted torque of the controller with all its blocks (ControlChain), plus its dither and the rounding error
+/// that a sigma-delta converter carries over, N m. Feed-forward is absent, because these lanes have step
+/// references only.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P block_torque(BatchState& batch, const At& at, const ControlInput<P>& in) {
   BlockLanes& b = batch.blocks;
@@ -146,7 +151,9 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask has_memory(const BatchState& batch, con
   return to_mask(at.load(b.remembers)) | hold_to_come | standstill_to_come;
 }
 
-/// Keeps the rounding error of the lanes with a sigma-delta converter.
+/// Stores the rounding error of this sample in the lanes with a sigma-delta converter; it is added to the
+/// next torque. @param torque wanted torque, N m. @param converted torque of the rounded code, N m. @param
+/// clipped lanes whose code was out of range.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void keep_remainder(BatchState& batch, const At& at, const P& torque,
                                             const P& converted, const typename P::Mask& clipped) {

@@ -5,7 +5,8 @@
 
 namespace zerocount::batch {
 
-/// Neighbouring lanes of the batch state that fill one vector; a mask says which take part.
+/// Consecutive lanes of the batch state that fill one vector. A mask says which of them take part in an
+/// operation.
 template <class P>
 class LaneStretch {
  public:
@@ -25,10 +26,11 @@ class LaneStretch {
 
  private:
   int base_;
-  unsigned taking_part_;  ///< One bit a lane of the vector
+  unsigned taking_part_;  ///< Lanes that take part: one bit for each lane of the vector
 };
 
-/// Any lanes, filled up with the spare lane. Removes them from the set.
+/// Lanes from arbitrary positions of the batch state, gathered into one vector. Missing lanes are filled up
+/// with the spare lane. The constructor removes the gathered lanes from the set.
 template <class P>
 class LaneCollection {
  public:
@@ -58,8 +60,9 @@ class LaneCollection {
     constexpr int width = sizeof(to.part[0]) / sizeof(double);
     for (int p = 0; p < P::lanes / width; ++p) to.part[p] = collect<width>(of, lane_ + p * width);
   }
-  /// Collects lanes in registers. A detour through memory would be slower, because a vector load waits for
-  /// the scalar stores before it.
+  /// Gathers the values of several lanes into a vector register. A detour through memory would be slower,
+  /// because a vector load waits for the scalar stores before it. @param of one value per lane. @param lane
+  /// indices of the lanes.
   template <int Width>
   static ZEROCOUNT_ALWAYS_INLINE auto collect(const double* of, const int* lane) {
     using Real = typename VectorOf<Width>::Real;
@@ -79,12 +82,12 @@ class LaneCollection {
     for (int i = 0; i < P::lanes; ++i) to[lane_[i]] = value[i];
   }
 
-  unsigned taking_part_;  ///< One bit a lane of the vector
+  unsigned taking_part_;  ///< Lanes that take part: one bit for each lane of the vector
   int lane_[P::lanes];
 };
 
-/// A LaneStretch or a LaneCollection. One function serves both, which halves the compile time but costs a
-/// branch at each access.
+/// Either consecutive lanes (LaneStretch) or gathered ones (LaneCollection), as one type. One compiled kernel
+/// serves both, which halves the compile time but costs a branch at each access.
 template <class P>
 class LaneGroup : public LaneStretch<P> {
  public:
@@ -103,18 +106,19 @@ class LaneGroup : public LaneStretch<P> {
   }
 
  private:
-  const LaneCollection<P>* collection_ = nullptr;  ///< null: the lanes of the stretch
+  const LaneCollection<P>* collection_ = nullptr;  ///< The gathered lanes; null: the lanes are consecutive
 };
 
-/// Vector types of a kernel: Wide has `Chains` chains of operations, for enough lanes; Narrow has one.
+/// Vector types of a kernel. Wide consists of `Chains` vectors that are processed side by side, for many
+/// lanes; Narrow is one vector, for few.
 template <int Width, int Chains>
 struct Vectors {
   using Wide = Simd<Width, Chains>;
   using Narrow = Simd<Width, 1>;
 };
 
-/// Passes the lanes to `work` as LaneStretch. A stretch whose lanes all lie in one half is passed as a narrow
-/// one.
+/// Calls `work` for the lanes of the set in groups of consecutive lanes (LaneStretch). A group whose lanes
+/// all lie in one half is passed as a narrower vector.
 template <class V, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneSet& lanes, Work work) {
   using Wide = typename V::Wide;
@@ -133,8 +137,9 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneSet& lanes, Work work) {
   }
 }
 
-/// Passes the lanes to `work`. A stretch is passed as LaneStretch if at least half of its lanes take part.
-/// The other lanes are passed as LaneCollection, the last few of them as narrow vectors.
+/// Calls `work` for all lanes of the set in vectors. Consecutive lanes are passed as LaneStretch if at least
+/// half of them are in the set. The other lanes are gathered and passed as LaneCollection, the last few of
+/// them as narrow vectors.
 template <class V, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_vector(LaneSet lanes, Work work) {
   using Wide = typename V::Wide;
@@ -154,8 +159,8 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_vector(LaneSet lanes, Work work) {
   if (!lanes.empty()) work(LaneCollection<Narrow>(lanes));
 }
 
-/// Passes the lanes to `work` as LaneGroup. A stretch is passed as it is if at least half of its lanes take
-/// part; the other lanes are collected.
+/// Calls `work` for all lanes of the set as LaneGroup. Consecutive lanes are passed as they are if at least
+/// half of them are in the set; the other lanes are gathered.
 template <class P, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_group(LaneSet lanes, Work work) {
   int base = 0;
@@ -172,8 +177,9 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_group(LaneSet lanes, Work work) {
   }
 }
 
-/// Passes the lanes and their forcing to `work`. Without a forcing the vectors are made as by the other
-/// for_each_vector, and the forcing is Unforced; otherwise the lanes are passed as LaneGroup.
+/// Calls `work` with vectors of lanes and the type of their forcing. Without a forcing, the vectors are made
+/// as by for_each_vector(lanes, work), and the forcing is Unforced. Otherwise the lanes are passed as
+/// LaneGroup.
 template <class V, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_vector(const LaneSet& lanes, Forcing forcing, Work work) {
   if (forcing.any()) {
@@ -196,14 +202,15 @@ __attribute__((noinline)) void append_events(BatchState& batch, const At& at, co
   }
 }
 
-/// Adds the lanes whose `events` are not 0 to the batch state.
+/// Records the lanes whose `events` are not 0, and their events, in the batch state.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void add_events(BatchState& batch, const At& at, const P& events) {
   const typename P::Mask noted = (events != P(0.0)) & at.taking_part();
   if (noted.any()) append_events(batch, at, events, noted.bits());
 }
 
-/// Loads a struct of quantities, such as loop::IntegralConstants, for these lanes.
+/// Loads all members of a struct, such as loop::IntegralConstants, from arrays with one number per lane into
+/// vectors.
 template <template <class> class Struct, class At>
 ZEROCOUNT_ALWAYS_INLINE Struct<typename At::Vector> load_struct(const At& at, const Struct<Lanes>& lanes) {
   using P = typename At::Vector;
@@ -216,7 +223,7 @@ ZEROCOUNT_ALWAYS_INLINE Struct<typename At::Vector> load_struct(const At& at, co
   return loaded;
 }
 
-/// Visitors for for_each_measure, between lanes and vectors.
+/// Visitor for for_each_measure(): loads each measure from the lanes of the batch state into a vector.
 template <class At>
 struct LoadEach {
   const At& at;
@@ -234,7 +241,7 @@ struct StoreEach {
   }
 };
 
-/// The mask as numbers: 1 where it is set, else 0. to_mask() is the inverse.
+/// Converts a mask to numbers: 1 in the lanes where it is set, otherwise 0. to_mask() is the inverse.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P to_number(const typename P::Mask& mask) {
   return select(mask, P(1.0), P(0.0));
@@ -243,13 +250,13 @@ template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask to_mask(const P& number) {
   return number != P(0.0);
 }
-/// `event` where the mask is set, else no_event.
+/// The event `event` in the lanes where the mask is set, no_event in the others.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P events_where(const typename P::Mask& mask, LaneEvent event) {
   return select(mask, P(static_cast<double>(event)), P(0.0));
 }
 
-/// Adds `passed` samples with zero error to the measures.
+/// Adds `passed` samples with zero error and unchanged torque to the measures of the move.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void measure_passed(BatchState& batch, const At& at, const P& passed) {
   MeasureLanes& q = batch.measures;
@@ -261,7 +268,8 @@ ZEROCOUNT_ALWAYS_INLINE void measure_passed(BatchState& batch, const At& at, con
 
 // Step control of all motions.
 
-/// The step h, or half of the time to the stop if h would leave only a short remainder.
+/// The length h of the next step, or half of the time to the next stop if a step of h would leave only a
+/// short remainder.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P without_short_remainder(const P& h, const P& time_to_stop) {
   return select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);

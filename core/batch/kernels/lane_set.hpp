@@ -8,7 +8,8 @@ namespace zerocount::batch {
 
 inline constexpr int max_lanes = 128;
 
-/// A set of lanes, one bit each. Included by the kernels: see simd.hpp for what must not be in here.
+/// A set of lanes (slots of the batch engine that run one trial each), one bit per lane. Included by the
+/// kernels: see simd.hpp for what must not be in here.
 struct LaneSet {
   static_assert(max_lanes == 128);
   std::uint64_t words[max_lanes / 64]{};
@@ -22,11 +23,12 @@ struct LaneSet {
   ZEROCOUNT_ALWAYS_INLINE int count() const {
     return __builtin_popcountll(words[0]) + __builtin_popcountll(words[1]);
   }
-  /// The lowest lane. The set must not be empty.
+  /// Index of the lowest lane in the set. The set must not be empty.
   ZEROCOUNT_ALWAYS_INLINE int first() const {
     return words[0] != 0 ? __builtin_ctzll(words[0]) : 64 + __builtin_ctzll(words[1]);
   }
-  /// The `width` lanes from `base` on, a multiple of `width`, as bits.
+  /// Membership of the lanes base to base + width − 1 in the set, one bit each. @param base a multiple of
+  /// `width`.
   ZEROCOUNT_ALWAYS_INLINE unsigned stretch(int base, int width) const {
     return static_cast<unsigned>(words[base / 64] >> (base % 64)) & ((1U << width) - 1U);
   }
@@ -36,7 +38,7 @@ struct LaneSet {
   ZEROCOUNT_ALWAYS_INLINE void erase_stretch(int base, unsigned lanes) {
     words[base / 64] &= ~(std::uint64_t{lanes} << (base % 64));
   }
-  /// The lanes that are not in `other`.
+  /// The lanes of this set that are not in `other`.
   ZEROCOUNT_ALWAYS_INLINE LaneSet without(const LaneSet& other) const {
     LaneSet rest = *this;
     for (int i = 0; i < max_lanes / 64; ++i) rest.words[i] &= ~other.words[i];
@@ -45,7 +47,7 @@ struct LaneSet {
   ZEROCOUNT_ALWAYS_INLINE LaneSet in_both(const LaneSet& other) const { return without(without(other)); }
 };
 
-/// Calls `work` with each lane of the set, in ascending order.
+/// Calls `work` with the index of each lane of the set, in ascending order.
 template <class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_lane(LaneSet set, Work work) {
   for (std::uint64_t i = 0; i < max_lanes / 64; ++i) {

@@ -5,7 +5,8 @@
 
 namespace zerocount::batch {
 
-/// The lanes at which a mask of each stretch of lanes is set.
+/// The set of lanes for which `mask_of` is true. @param mask_of gives the mask of the consecutive lanes of
+/// one vector.
 template <class P, class MaskOf>
 ZEROCOUNT_ALWAYS_INLINE LaneSet lanes_where(MaskOf mask_of) {
   static_assert(max_lanes % P::lanes == 0);
@@ -24,7 +25,8 @@ LaneSet lanes_at_stop_kernel(const BatchState& batch) {
   });
 }
 
-/// The lanes that move faster than ContactLanes::fast_velocity.
+/// The lanes whose rotor moves faster than ContactLanes::fast_velocity, so that its friction is Coulomb
+/// friction.
 template <class P>
 LaneSet fast_lanes_kernel(const BatchState& batch) {
   return lanes_where<P>([&](const auto& at) __attribute__((always_inline)) {

@@ -8,8 +8,8 @@ namespace zerocount::batch {
 
 // The random numbers of running trials (core/random/random_numbers.hpp), one in each lane.
 
-/// Philox4x32-10. Counter and key are in the lower 32 bits of a lane; the others are not used. @returns
-/// output word 0 + 2³²·word 1.
+/// The random number generator Philox4x32-10 in each lane. Counter and key words are in the lower 32 bits of
+/// their elements; the upper bits are not used. @returns output word 0 + 2³²·word 1.
 template <int Width>
 ZEROCOUNT_ALWAYS_INLINE typename VectorOf<Width>::Bits philox(typename VectorOf<Width>::Bits counter[4],
                                                               typename VectorOf<Width>::Bits key[2]) {
@@ -30,7 +30,9 @@ ZEROCOUNT_ALWAYS_INLINE typename VectorOf<Width>::Bits philox(typename VectorOf<
   return (counter[0] & UINT32_MAX) | (counter[1] << 32);
 }
 
-/// open_uniform(random_bits_at(stream, trial, k)) of these lanes. @param k a whole number below 2⁴⁰.
+/// Sets `uniform` to the uniform random number in (0, 1) with number `k` of each lane's stream and trial, as
+/// open_uniform(random_bits_at(stream, trial, k)) gives it. @param k a whole number below 2⁴⁰, usually the
+/// number of the sample.
 template <int Width, int Chains, class At>
 ZEROCOUNT_ALWAYS_INLINE void set_uniform_at(const RandomLanes& r, const At& at, const Simd<Width, Chains>& k,
                                             Simd<Width, Chains>& uniform) {
@@ -54,11 +56,11 @@ ZEROCOUNT_ALWAYS_INLINE void set_uniform_at(const RandomLanes& r, const At& at, 
   uniform = ((drawn - shift) + P(0.5)) * P(0x1p-52);
 }
 
-/// Reading of a noisy encoder at a sample.
+/// Reading of a noisy fine encoder at a sampling instant.
 template <class P>
 struct NoisyReading {
   P count;
-  P state;      ///< w of the noise
+  P state;      ///< Noise value w at this sample, in standard deviations
   P disagrees;  ///< 1 if no single angle gives both this count and the count of the coarse encoder
 };
 

@@ -7,7 +7,8 @@
 
 namespace zerocount::batch {
 
-/// The torque of the PID law without blocks, N m.
+/// Torque of the PID law without further controller blocks, N m. Updates the integral. @param last_count
+/// count at the last sample.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P pid_torque(BatchState& batch, const At& at, const ControlInput<P>& in,
                                      const P& last_count) {
@@ -34,7 +35,8 @@ ZEROCOUNT_ALWAYS_INLINE void measure_bands(MeasureLanes& q, const At& at, const 
   }
 }
 
-/// Count of the noisy fine encoder. @param angle true angle at the encoder, rad.
+/// Reads the noisy fine encoder at this sample, and updates its noise. @param angle true angle at the
+/// encoder, rad. @returns the count.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P noisy_count(BatchState& batch, const At& at, const P& angle) {
   NoiseLanes& n = batch.noise;
@@ -46,7 +48,7 @@ ZEROCOUNT_ALWAYS_INLINE P noisy_count(BatchState& batch, const At& at, const P& 
   return reading.count;
 }
 
-/// One sampling instant of one vector; see sample_kernel.
+/// Processes one sampling instant of one vector of lanes; see sample_kernel().
 template <Decider decider, bool noisy, class At>
 __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -151,9 +153,10 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
                  events_where<P>(to_mask(at.load(l.driven)), driven));
 }
 
-/// One sampling instant of each lane: encoder, control, converter, measures. With `noisy` the fine encoder
-/// has noise. Reports jerk_changes, count_changes, diverges and driven, and beyond_kernel where the encoder
-/// cannot count θ.
+/// Processes one sampling instant of each lane: reads the encoder, runs the controller, converts the torque,
+/// and updates the measures of the move. @tparam decider code that decides the torque. @tparam noisy whether
+/// the fine encoder has noise. Reports the events jerk_changes, count_changes, diverges and driven, and
+/// beyond_kernel where the encoder cannot count θ.
 template <class V, Decider decider, bool noisy>
 void sample_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

@@ -4,7 +4,8 @@
 #include "core/batch/kernels/simd.hpp"
 #include "core/numerics/series_recurrences.hpp"
 
-/// Power series in the fraction of a step, from 0 to 1: coefficient k is that in time, times hᵏ.
+/// Power series in the fraction x of a step, from 0 to 1. With h the length of the step, coefficient k is hᵏ
+/// times the Taylor coefficient in time.
 namespace zerocount::batch {
 
 /// sin x and cos x to about 2e-16 + 2e-16·|x| for |x| < 2⁵⁰: x − n·π/2 by Cody and Waite's reduction, and
@@ -36,7 +37,7 @@ ZEROCOUNT_ALWAYS_INLINE void sine_and_cosine(const P& x, P& sine, P& cosine) {
   cosine = select((quarter == P(1.0)) | (quarter == P(2.0)), -second, second);
 }
 
-/// The polynomial at x, smallest terms first.
+/// Value at x of the polynomial c[0] + c[1]·x + … + c[order]·xᵒʳᵈᵉʳ, summed from the smallest terms.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P value_of(const P* c, int order, const P& x) {
   P value = c[order];
@@ -45,7 +46,7 @@ ZEROCOUNT_ALWAYS_INLINE P value_of(const P* c, int order, const P& x) {
   return value;
 }
 
-/// The polynomial at x = 1; bitwise equal to value_of(c, order, 1).
+/// Value at x = 1 of the polynomial with the coefficients c[0…order]; bitwise equal to value_of(c, order, 1).
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
   P value = c[order];
@@ -54,7 +55,8 @@ ZEROCOUNT_ALWAYS_INLINE P sum_of(const P* c, int order) {
   return value;
 }
 
-/// Σ k(k−1)·|c[k]|, which no second derivative on [0, 1] exceeds.
+/// Upper bound of the absolute second derivative on [0, 1] of the polynomial with the coefficients c: Σ
+/// k(k−1)·|c[k]|.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {
   P sum = abs(c[order]) * P(static_cast<double>(order * (order - 1)));
@@ -71,14 +73,15 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask keeps_sign(const P& at_start, const P& 
   return (min(abs(at_start), abs(at_end)) > curvature * P(0.125)) | (abs(slope) > curvature);
 }
 
-/// A polynomial and its derivative at x.
+/// Value and first derivative of a polynomial at one point.
 template <class P>
 struct ValueAndSlope {
   P value;
   P slope;
 };
 
-/// Sums even and odd powers apart, so that four chains of additions run in parallel.
+/// Value and derivative at x of the polynomial with the coefficients c[0…order]. Sums even and odd powers
+/// apart, so that four chains of additions run in parallel.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE ValueAndSlope<P> value_and_slope(const P* c, int order, const P& x) {
   const P square = x * x;
@@ -103,8 +106,8 @@ ZEROCOUNT_ALWAYS_INLINE ValueAndSlope<P> value_and_slope(const P* c, int order, 
   return {even + x * odd, odd + P(2.0) * x * (even_slope + x * odd_slope)};
 }
 
-/// Bracketed Newton iteration of the lanes of a vector. A lane that has converged keeps its value, so that
-/// the result does not depend on the other lanes.
+/// Bracketed Newton iteration for a root in each lane of a vector. A lane that has converged keeps its value,
+/// so that the result does not depend on the other lanes.
 template <class P>
 struct NewtonSearch {
   using Mask = typename P::Mask;
@@ -112,10 +115,11 @@ struct NewtonSearch {
   P high;
   P x;
   P last_change;
-  Mask open;  ///< Lanes that have not converged
+  Mask open;  ///< Mask of the lanes whose iteration has not converged
 
-  /// One step to `newton`, or by bisection where that leaves the bracket or converges slowly. @param before
-  /// whether the root is above x. @param close change whose square is below rounding.
+  /// One iteration: goes to the Newton iterate `newton`, or bisects where that leaves the bracket or
+  /// converges slowly. @param before whether the root is above the present x. @param close change of x whose
+  /// square is below rounding; a smaller change ends the iteration of a lane.
   ZEROCOUNT_ALWAYS_INLINE void step(const P& newton, const Mask& before, const P& close) {
     low = select(before, x, low);
     high = select(before, high, x);
@@ -130,8 +134,9 @@ struct NewtonSearch {
 
 constexpr int max_newton_steps = 60;
 
-/// The root of a polynomial between 0 and `end`, its values there having opposite signs. Starts from the root
-/// of the secant. Computed for the lanes of `wanted`.
+/// The root between 0 and `end` of the polynomial with the coefficients c[0…order], which has opposite signs
+/// at both ends. Starts from the root of the secant. Computed for the lanes of `wanted`. @param at_start,
+/// at_end values of the polynomial at 0 and at `end`.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start, const P& at_end,
                                        const P& end, const typename P::Mask& wanted) {
@@ -165,10 +170,11 @@ ZEROCOUNT_ALWAYS_INLINE P rough_zero(const P* c, const P& at_end, const typename
   return select((x > P(0.0)) & (x < P(1.0)), x, secant);
 }
 
-/// The zero of a polynomial on (0, 1). In the lanes of `from_zero` the polynomial is zero at 0, and the zero
-/// of the polynomial divided by x is found. An error of its position enters the motion squared, because the
-/// velocity at a reversal is zero.
-/// @param at_start the value at 0, or the slope where that is zero. @param at_end the value at 1.
+/// The zero of the polynomial with the coefficients c[0…order] on (0, 1). In the lanes of `from_zero` the
+/// polynomial is zero at 0, and the zero of the polynomial divided by x is found. An error of its position
+/// enters the motion squared, because the velocity at a reversal is zero.
+/// @param at_start the value at 0, or the slope in the lanes of `from_zero`. @param at_end the value at 1.
+/// @param wanted lanes to compute.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P next_zero(const P* c, int order, const P& at_start, const P& at_end,
                                     const typename P::Mask& from_zero, const typename P::Mask& wanted) {
@@ -193,9 +199,9 @@ ZEROCOUNT_ALWAYS_INLINE P torque_power(const P& torque, const P& exponent) {
   return select(other, pow(abs(torque), exponent), square);
 }
 
-/// Coefficient k ≥ 1 of |σ|ⁿ, given the coefficients of σ up to k and the coefficients of |σ|ⁿ up to k − 1. σ
-/// must not be 0 at the start.
-/// @param per_start 1/σ at the start
+/// Coefficient k ≥ 1 of the series of |σ|ⁿ, given the coefficients of σ up to k and the coefficients of |σ|ⁿ
+/// up to k − 1. σ must not be 0 at the start.
+/// @param torque, power coefficients of σ and of |σ|ⁿ. @param exponent n. @param per_start 1/σ at the start.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P torque_power_coefficient(const P* torque, const P* power, const P& exponent,
                                                    const P& per_start, int k) {

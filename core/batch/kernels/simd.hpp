@@ -26,7 +26,7 @@ template <int Width>
 struct VectorOf {
   typedef double Real __attribute__((vector_size(8 * Width)));
   typedef std::int64_t Bits __attribute__((vector_size(8 * Width)));
-  /// For each lane all bits set, or none.
+  /// Mask of a vector: for each lane all bits are set, or none.
   typedef std::int64_t Mask __attribute__((vector_size(8 * Width)));
 
   static ZEROCOUNT_ALWAYS_INLINE Mask less(Real a, Real b) { return a < b; }
@@ -62,7 +62,7 @@ struct VectorOf {
     kept = mask ? value : kept;
     __builtin_memcpy(to, &kept, sizeof kept);
   }
-  /// One bit a lane.
+  /// The mask as an integer: one bit for each lane, the lowest lane in the lowest bit.
   static ZEROCOUNT_ALWAYS_INLINE unsigned bits(Mask mask) {
 #ifdef __AVX__
     if constexpr (Width == 4) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
@@ -91,7 +91,7 @@ template <>
 struct VectorOf<8> {
   typedef double Real __attribute__((vector_size(64)));
   typedef std::int64_t Bits __attribute__((vector_size(64)));
-  using Mask = __mmask8;  ///< One bit per lane.
+  using Mask = __mmask8;  ///< Mask of a vector, one bit per lane
 
   static ZEROCOUNT_ALWAYS_INLINE Mask less(Real a, Real b) {
     return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
@@ -118,20 +118,20 @@ struct VectorOf<8> {
 };
 #endif
 
-/// Mask of a Simd: true or false for each lane.
+/// Mask of a Simd: for each lane whether it is selected.
 template <int Width, int Chains>
 struct SimdMask {
   using Vector = VectorOf<Width>;
   using Part = typename Vector::Mask;
   Part part[Chains];
 
-  /// The lanes whose bit is set.
+  /// The mask that selects the lanes whose bit is set; the lowest lane has the lowest bit.
   static ZEROCOUNT_ALWAYS_INLINE SimdMask of_bits(unsigned bits) {
     SimdMask r;
     for (int i = 0; i < Chains; ++i) r.part[i] = Vector::of_bits(bits >> (i * Width));
     return r;
   }
-  /// One bit a lane.
+  /// The mask as an integer: one bit for each lane, the lowest lane in the lowest bit.
   ZEROCOUNT_ALWAYS_INLINE unsigned bits() const {
     unsigned bits = 0;
     for (int i = 0; i < Chains; ++i) bits |= Vector::bits(part[i]) << (i * Width);
@@ -231,11 +231,12 @@ struct Simd {
   }
   friend ZEROCOUNT_ALWAYS_INLINE Mask operator!=(const Simd& a, const Simd& b) { return ~(a == b); }
 
-  /// Writes the lanes of `mask` to memory; the others keep their value there.
+  /// Writes the elements of the lanes in `mask` to memory from `to` on; the other elements in memory keep
+  /// their values.
   ZEROCOUNT_ALWAYS_INLINE void store(double* to, const Mask& mask) const {
     for (int i = 0; i < Chains; ++i) Vector::store(to + std::ptrdiff_t{i} * Width, mask.part[i], part[i]);
   }
-  /// a in the lanes of `mask`, b in the others.
+  /// Selects for each lane: a in the lanes of `mask`, b in the others.
   friend ZEROCOUNT_ALWAYS_INLINE Simd select(const Mask& mask, const Simd& a, const Simd& b) {
     Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = Vector::select(mask.part[i], a.part[i], b.part[i]);
@@ -248,7 +249,7 @@ struct Simd {
   }
   friend ZEROCOUNT_ALWAYS_INLINE Simd min(const Simd& a, const Simd& b) { return select(b < a, b, a); }
   friend ZEROCOUNT_ALWAYS_INLINE Simd max(const Simd& a, const Simd& b) { return select(a < b, b, a); }
-  /// a·(1/b), the reciprocal computed once for all a.
+  /// a·(1/b). The compiler can compute the reciprocal once for all a with the same b.
   friend ZEROCOUNT_ALWAYS_INLINE Simd by_fixed(const Simd& a, const Simd& b) { return a * (Simd(1.0) / b); }
   /// Sign of a: −1, 0 or 1.
   friend ZEROCOUNT_ALWAYS_INLINE Simd sign(const Simd& a) {
@@ -262,28 +263,28 @@ struct Simd {
     return r;
   }
 
-  /// The nearest whole number, half to even. |a| < 2⁵¹.
+  /// Rounds a to the nearest whole number, half to even; only for |a| < 2⁵¹.
   friend ZEROCOUNT_ALWAYS_INLINE Simd fast_rint(const Simd& a) {
     const Simd shift(0x1.8p52);
     return (a + shift) - shift;
   }
-  /// Rounds any a; returns a unchanged for abs(a) ≥ 2⁵⁰.
+  /// Rounds a to the nearest whole number, half to even; returns a unchanged for abs(a) ≥ 2⁵⁰.
   friend ZEROCOUNT_ALWAYS_INLINE Simd rint(const Simd& a) {
     return select(abs(a) < Simd(0x1p50), fast_rint(a), a);
   }
-  /// ⌊a⌋, |a| < 2⁵¹.
+  /// Largest whole number that does not exceed a, for |a| < 2⁵¹.
   friend ZEROCOUNT_ALWAYS_INLINE Simd floor(const Simd& a) {
     const Simd nearest = fast_rint(a);
     return select(nearest > a, nearest - Simd(1.0), nearest);
   }
-  /// 2ᵃ, a a whole number from −1022 to 1023.
+  /// The power of two 2ᵃ for a whole number a from −1022 to 1023.
   friend ZEROCOUNT_ALWAYS_INLINE Simd exp2(const Simd& a) {
     const Simd shifted = a + Simd(0x1.8p52);
     Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = (Real)(((Bits)shifted.part[i] + 1023) << 52);
     return r;
   }
-  /// The factors of a = m·2ᵉ, 1 ≤ m < 2, for a normal a > 0.
+  /// Splits a normal number a > 0 into the factors of a = m·2ᵉ with 1 ≤ m < 2.
   friend ZEROCOUNT_ALWAYS_INLINE void split(const Simd& a, Simd& m, Simd& e) {
     typedef std::uint64_t Unsigned __attribute__((vector_size(8 * Width)));
     constexpr int stored_bits = 52;
@@ -312,7 +313,7 @@ struct Simd {
   }
 };
 
-/// eᵃ for a ≤ 700, to about 2e-16 relative; e⁻⁷⁰⁰ for a < −700.
+/// Exponential function eᵃ for a ≤ 700, to about 2e-16 relative; e⁻⁷⁰⁰ for a < −700.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P exp(const P& a) {
   const P x = max(a, P(-700.0));

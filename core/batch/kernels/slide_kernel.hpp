@@ -5,7 +5,7 @@
 
 namespace zerocount::batch {
 
-/// The step of one vector; see slide_kernel.
+/// Integrates one step of one vector of lanes whose hook slides; see slide_kernel().
 template <bool Fast, class At, class F>
 __attribute__((noinline)) void slide(BatchState& batch, const At& at, F forcing) {
   using P = typename At::Vector;
@@ -84,8 +84,9 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at, F forcing)
              events_where<P>(step.done & step.halts, velocity_zero) + events_where<P>(lost, beyond_kernel));
 }
 
-/// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series converge.
-/// Reports velocity_zero, and beyond_kernel where the slide starts at ω = 0. See PreslidingFriction::slide.
+/// One integration step of each lane whose hook slides. The step ends at the lane's next stop (at which its
+/// torque may change), at ω = 0, or where the Taylor series cease to be accurate. Reports velocity_zero, and
+/// beyond_kernel where the slide starts at ω = 0. See PreslidingFriction::slide.
 ///
 /// `Fast` is for lanes far above the Stribeck velocity, with (ω/ωs)² > 64, whose friction equals Coulomb
 /// friction to the last bit. Their steps end where (ω/ωs)² = 42, because exp(−42) = 6e-19. The torque of a

@@ -5,7 +5,7 @@
 
 namespace zerocount::batch {
 
-/// The samples of one vector of standing lanes; see stand_kernel.
+/// Passes the samples of one vector of lanes whose rotor stands still; see stand_kernel().
 template <class At>
 __attribute__((noinline)) void stand(BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -27,15 +27,17 @@ __attribute__((noinline)) void stand(BatchState& batch, const At& at) {
   add_events(batch, at, events_where<P>(released, breakaway));
 }
 
-/// Moves lanes that Coulomb friction holds under a constant torque to their next stop. Reports breakaway if
-/// the torque exceeds the breakaway torque; such a lane is not moved.
+/// Moves lanes whose rotor Coulomb friction holds still under a constant torque to their next stop, at which
+/// the torque may change. Reports breakaway if the torque exceeds the breakaway torque; such a lane is not
+/// moved.
 template <class V>
 void stand_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
   for_each_stretch<V>(lanes, [&](const auto& at) { stand(batch, at); });
 }
 
-/// The step of one vector; see stand_forced_kernel.
+/// One step of one vector of lanes whose rotor stands still under a varying torque or a second mass; see
+/// stand_forced_kernel().
 template <class At>
 __attribute__((noinline)) void stand_forced(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
@@ -76,8 +78,9 @@ __attribute__((noinline)) void stand_forced(BatchState& batch, const At& at, For
   add_events(batch, at, events_where<P>(~held, breakaway));
 }
 
-/// One step, at most to the next sample, of lanes that Coulomb friction holds under a forcing. Reports
-/// breakaway if a bound of the torque exceeds the breakaway torque; such a lane is not moved.
+/// One step, at most to the next sample, of lanes whose rotor Coulomb friction holds still while a varying
+/// torque or a second mass acts on it. Reports breakaway if a bound of the torque exceeds the breakaway
+/// torque; such a lane is not moved.
 template <class V>
 void stand_forced_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

@@ -4,23 +4,24 @@
 
 namespace zerocount::batch {
 
-/// Elongation xs at the end of the step, rad.
+/// Elongation xs of the contact's spring at the end of the used step, rad.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P elongation_end(const StickStep<P>& step) {
   return step.elongation_start + step.elongation_change;
 }
 
-/// Masks of the lanes that meet each event of the contact, except reversals.
+/// Masks of the lanes in which each event of the sticking contact occurs within the step, except reversals.
 template <class P>
 struct ContactEvents {
   using Mask = typename P::Mask;
-  Mask breakaway;  ///< |σ + c·ω| has reached the breakaway torque
-  Mask closure;    ///< The branch has ended and its hysteresis loop closes.
-  Mask creep_on;   ///< |σ| has passed the onset of creep.
-  Mask creep_off;  ///< Lanes whose creep ends: it has reached its limit, or σ is zero.
+  Mask breakaway;  ///< |σ + c·ω|, the torque on the hook, has reached the breakaway torque.
+  Mask closure;    ///< The spring's hysteresis branch has ended and its minor loop closes.
+  Mask creep_on;   ///< The absolute spring torque |σ| has passed the torque at which creep sets in.
+  Mask creep_off;  ///< Creep ends: its hardening has reached its limit, or the spring torque σ is zero.
 
   ZEROCOUNT_ALWAYS_INLINE Mask any() const { return breakaway | closure | creep_on | creep_off; }
-  /// Chooses a value for each lane by its first event, in the order of the parameters.
+  /// Selects one of four values for each lane, by the first of these events that is set in the order of the
+  /// parameters; the last value also where none is set.
   ZEROCOUNT_ALWAYS_INLINE P choose(const P& if_breakaway, const P& if_closure, const P& if_creep_on,
                                    const P& if_creep_off) const {
     return select(breakaway, if_breakaway,
@@ -28,19 +29,19 @@ struct ContactEvents {
   }
 };
 
-/// Coefficient k of the hook's torque, N m.
+/// Series coefficient k of the torque σ + c·ω on the hook, N m.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P hook_coefficient(const StickStep<P>& step, int k) {
   return torque_coefficient(step, k) + step.per_step * velocity_coefficient(step, k);
 }
 
-/// σ + c·ω at the end of the step, N m.
+/// Torque σ + c·ω on the hook at the end of the step, N m.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P hook_torque_at_end(const StickStep<P>& step) {
   return step.torque + step.per_step * step.velocity;
 }
 
-/// Events whose threshold is passed at the end of a step.
+/// The events of the contact whose threshold is passed between start and end of a step.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE ContactEvents<P> events_passed(const BatchState& batch, const At& at,
                                                        const StickStep<P>& step) {
@@ -62,7 +63,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_break_away_within(const StickStep<P
   return (at_ends + curvature * P(0.125) >= step.breakaway_torque) & ~(abs(hook[1]) > curvature);
 }
 
-/// Marks the lanes whose steps have an event other than a reversal, without locating it.
+/// Marks the lanes whose step contains an event other than a reversal (StickStep::has_event), without
+/// locating it.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void mark_events(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;
@@ -77,8 +79,8 @@ ZEROCOUNT_ALWAYS_INLINE void mark_events(const BatchState& batch, const At& at, 
   step.beyond = no_lanes<P>();
 }
 
-/// Moves the end of the step back to the first of `events` in the lanes of `open`. Each of these lanes must
-/// have an event.
+/// Shortens the step of the lanes in `open` to the instant of the first of their `events`. Each of these
+/// lanes must have an event.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, const ContactEvents<P>& events,
                                         const typename P::Mask& open, StickStep<P>& step) {
@@ -122,7 +124,7 @@ ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, c
   step.velocity = select(open, value_of(velocity, batch_order, step.x), step.velocity);
 }
 
-/// Locates the first event of each lane, and ends its step there.
+/// Locates the first event of the contact in each lane's step, and ends the step there.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void find_first_event(const BatchState& batch, const At& at, StickStep<P>& step) {
   using Mask = typename P::Mask;

@@ -5,46 +5,49 @@
 
 namespace zerocount::batch {
 
-/// The series of a step. Lengths are scaled by −s·(softening rate), of either sign, as in the exponent of the
-/// branch.
+/// Power series of the motion while the hook sticks, over one step of length h. Lengths are multiplied by
+/// −s·(softening rate), with s = ±1 the side of the hysteresis branch, as in the branch's exponent.
 template <class P>
 struct StickSeries {
-  P rate[batch_order + 1];           ///< Coefficients of dxs/dt·h; the highest order leaves out creep.
-  P scaled_creep[batch_order + 1];   ///< Coefficients of xh·sgn(σ)
-  P scaled_torque[batch_order + 1];  ///< Coefficients of σ·h²/J
+  P rate[batch_order + 1];           ///< Coefficients of dxs/dt·h, the rate of the spring's elongation; the
+                                     ///< highest order leaves out creep.
+  P scaled_creep[batch_order + 1];   ///< Coefficients of the creep xh·sgn(σ)
+  P scaled_torque[batch_order + 1];  ///< Coefficients of the spring torque, σ·h²/J
 
   // Over the whole step.
   P elongation_change;
   P creep_change;
-  P velocity_end;  ///< ω·h at the end of the step
+  P velocity_end;  ///< Velocity of the rotor, ω·h, at the end of the step
   P scaled_torque_end;
-  P last_terms;  ///< Sum of the absolute values of the two highest orders of elongation and velocity
+  P last_terms;  ///< Sum of the absolute values of the two highest orders of elongation and velocity;
+                 ///< estimates the truncation error
 };
 
 /// Coefficients of the equations of motion while the contact sticks. Times are divided by h, the length of
 /// the step (s); lengths are divided by −s times the softening length (rad), with s the sign of the branch.
 template <class P>
 struct StickLaw {
-  P damping;      ///< c·h/J
-  P applied;      ///< u·h²/J
-  P stiffness;    ///< k1·h²/J
-  P softening;    ///< s·softening torque·h²/J
-  P creep_limit;  ///< ±α·h/λ per |σ|ⁿ, or per square of scaled_torque if n = 2; 0 while creep is off
-  P creep_recovery;  ///< α·h; 0 while creep is off
-  P creep_exponent;  ///< n
+  P damping;    ///< Damping of the rotor per step, c·h/J
+  P applied;    ///< Constant torque on the rotor, u·h²/J
+  P stiffness;  ///< Lowest tangent stiffness of the spring, k1·h²/J
+  P softening;  ///< Softening torque of the hysteresis branch with its sign, s·(softening torque)·h²/J
+  P creep_limit;  ///< Growth of creep ±α·h/λ per |σ|ⁿ, or per square of scaled_torque if n = 2; 0 while creep
+                  ///< is off
+  P creep_recovery;  ///< Recovery rate of creep, α·h; 0 while creep is off
+  P creep_exponent;  ///< Exponent n of the torque in the creep law
 };
 
-/// The start of a step.
+/// State of the sticking contact at the start of a step, in the scaled units of StickSeries.
 template <class P>
 struct StickStart {
   using Mask = typename P::Mask;
-  P scaled_creep;    ///< xh·sgn(σ)
-  P velocity;        ///< ω·h
-  P scaled_torque;   ///< σ·h²/J
-  P softness;        ///< exp(−y) of the branch
-  P torque_power;    ///< |σ|ⁿ
-  Mask at_reversal;  ///< dxs/dt is zero
-  Mask creeping;     ///< Lanes of the step that creep.
+  P scaled_creep;    ///< Creep, xh·sgn(σ)
+  P velocity;        ///< Velocity of the rotor, ω·h
+  P scaled_torque;   ///< Spring torque, σ·h²/J
+  P softness;        ///< Exponential exp(−y) of the hysteresis branch's softening
+  P torque_power;    ///< Power |σ|ⁿ of the spring torque in the creep law
+  Mask at_reversal;  ///< Mask of the lanes in which the elongation rate dxs/dt is zero
+  Mask creeping;     ///< Mask of the lanes whose contact creeps in this step
 };
 
 /// Mask of the lanes that creep with an exponent n other than 2.
@@ -53,10 +56,10 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask other_powers(const StickLaw<P>& law, co
   return start.creeping & (law.creep_exponent != P(2.0));
 }
 
-/// Computes the series two orders at a time, because their products share most factors. The loop is limited
-/// by memory accesses, so it stores only what cannot be derived, and it is not unrolled, because the code
-/// would not fit the instruction cache.
-/// @tparam AnyPower some lane creeps with an exponent other than 2.
+/// Computes the power series of the motion of sticking contacts over a step, two orders at a time, because
+/// their products share most factors. The loop is limited by memory accesses, so it stores only what cannot
+/// be derived, and it is not unrolled, because the code would not fit the instruction cache.
+/// @tparam AnyPower whether some lane creeps with an exponent other than 2.
 /// @param applied ConstantTorque, or a ForcedTorque in the units of the series.
 template <bool AnyPower, class P, class Applied>
 ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickStart<P>& start,
@@ -169,7 +172,8 @@ ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickSt
   s.last_terms = last_terms;
 }
 
-/// Not inlined, because it is rare and would take registers from the common case.
+/// Calls expand_orders() for vectors in which some lane creeps with an exponent other than 2. Not inlined,
+/// because this case is rare and would take registers from the common case.
 template <class P, class Applied>
 __attribute__((noinline)) void expand_any_power(const StickLaw<P>& law, const StickStart<P>& start,
                                                 Applied& applied, StickSeries<P>& s) {

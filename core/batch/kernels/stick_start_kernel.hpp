@@ -6,7 +6,7 @@
 
 namespace zerocount::batch {
 
-/// The start of a step of one vector; see stick_start_kernel.
+/// Prepares the step of one vector of lanes whose hook sticks; see stick_start_kernel().
 template <class At>
 __attribute__((noinline)) void start_step(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
@@ -114,9 +114,10 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at, Forci
                  events_where<P>(held & (direction != at.load(m.direction)), reversal));
 }
 
-/// Prepares the step of a lane whose hook sticks: evaluates the branch, and reports the events at its start:
-/// creep_off, and one of may_rest, breakaway and reversal. See PreslidingFriction::stick. Under a varying
-/// torque, may_rest is decided by the rule that the reference applies to varying torques.
+/// Prepares the step of each lane whose hook sticks: evaluates the spring's hysteresis branch, and reports
+/// the events at the start of the step: creep_off, and one of may_rest, breakaway and reversal. See
+/// PreslidingFriction::stick. Under a varying torque, may_rest is decided by the rule that the scalar
+/// reference engine applies to varying torques.
 template <class V>
 void stick_start_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

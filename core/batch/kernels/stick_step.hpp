@@ -6,29 +6,32 @@
 
 namespace zerocount::batch {
 
-/// A step of the lanes of one vector: its start, its series, and the part of it that is used.
+/// One integration step of a vector of lanes whose hook sticks: its start, its power series, and the part of
+/// the step that is used.
 template <class P>
 struct StickStep {
   using Mask = typename P::Mask;
 
-  Mask here;       ///< Lanes that take part.
+  Mask here;       ///< Lanes of the vector that take part in the step
   P h;             ///< Length of the full step, s
-  P per_h;         ///< 1/h, 1/s
-  P time_to_stop;  ///< Time to the next stop at the start of the step, s
-  P time_scale;    ///< 1/ωn, s
-  P length;        ///< Unit of the lengths in the series: −s/(softening rate), rad
-  P torque_unit;   ///< Unit of scaled_torque: J/h²·length, N m
+  P per_h;         ///< Reciprocal 1/h of the full step, 1/s
+  P time_to_stop;  ///< Time from the start of the step to the lane's next stop, at which its torque may
+                   ///< change, s
+  P time_scale;    ///< Time scale 1/ωn of the contact's highest natural frequency, s
+  P length;        ///< One unit of length in the series: −s/(softening rate), rad
+  P torque_unit;   ///< One unit of StickSeries::scaled_torque: J/h²·length, N m
 
   // The start.
-  P elongation_start;  ///< xs, rad
-  P creep_start;       ///< xh·sgn(σ), rad
-  P creep_limit;       ///< ±α·h/λ, creep per |σ|ⁿ; 0 while creep is off
-  Mask at_reversal;    ///< dxs/dt is zero
+  P elongation_start;  ///< Spring elongation xs at the start of the step, rad
+  P creep_start;       ///< Creep xh·sgn(σ) at the start of the step, rad
+  P creep_limit;       ///< Growth of creep ±α·h/λ per |σ|ⁿ; 0 while creep is off
+  Mask at_reversal;    ///< Mask of the lanes in which the elongation rate dxs/dt is zero at the start of the
+                       ///< step
   Mask creeping;
-  P torque_sign;       ///< Sign of σ, ±1
-  P direction;         ///< Direction of the elongation: −1, 0, 1
-  P per_step;          ///< c/h, torque of the damper per ω·h, N m/rad
-  P breakaway_torque;  ///< Fs, N m
+  P torque_sign;       ///< Sign of the spring torque σ, ±1
+  P direction;         ///< Direction in which the spring's elongation moves: −1, 0, 1
+  P per_step;          ///< Damping per step, c/h: torque of the damper per ω·h, N m/rad
+  P breakaway_torque;  ///< Torque Fs at which the hook starts to slide, N m
   P hook_torque;       ///< Torque σ + c·ω on the hook at the start of the step, N m
   StickLaw<P> law;
   StickSeries<P> series;
@@ -36,37 +39,38 @@ struct StickStep {
   // Step control.
   P forced_rate;  ///< Bound of the contribution of a varying torque to dxs/dt·h, divided by the softening
                   ///< length
-  Mask reverses;  ///< The rate dxs/dt of the spring elongation xs changes its sign within the step.
-  Mask ends_at_reversal;  ///< The step ends at the reversal.
+  Mask reverses;  ///< The spring's elongation rate dxs/dt changes its sign within the step.
+  Mask ends_at_reversal;  ///< The used step ends at the reversal of the spring's elongation.
   Mask too_long;
   Mask inexact;        ///< The step is too long because its truncation error exceeds `allowed_at_x`.
-  P last_terms;        ///< Last two terms of the series of elongation and velocity, rad
+  P last_terms;        ///< Absolute value of the last two terms of the series of elongation and velocity,
+                       ///< rad; estimates the truncation error
   P allowed;           ///< Truncation error allowed for the full step, rad
   P truncation_error;  ///< Truncation error at the fraction x of the step, rad
   P allowed_at_x;      ///< Truncation error allowed for the step up to x, rad
-  P rate_start;  ///< dxs/dt·h at the start, or its slope if dxs/dt is zero there, divided by the softening
-                 ///< length
+  P rate_start;  ///< Elongation rate dxs/dt·h at the start, or its slope if dxs/dt is zero there, divided by
+                 ///< the softening length
   P rate_end;    ///< dxs/dt·h at the end of the full step, divided by the softening length
 
   // The part that is used.
-  P x;                  ///< Fraction of the full step that is used.
-  P event;              ///< LaneEvent at the end of the used step.
-  Mask has_event;       ///< The step has an event that this kernel does not locate.
-  Mask beyond;          ///< The kernel cannot take the step.
-  P torque;             ///< σ at the end of the used step, N m
-  P elongation_change;  ///< Change of xs over the used step, rad
+  P x;                  ///< Fraction of the full step that is used, 0 to 1
+  P event;              ///< Events (LaneEvent) at the end of the used step
+  Mask has_event;       ///< Mask of the lanes whose step contains an event that this kernel does not locate
+  Mask beyond;          ///< Mask of the lanes whose step the kernel cannot compute
+  P torque;             ///< Spring torque σ at the end of the used step, N m
+  P elongation_change;  ///< Change of the spring's elongation xs over the used step, rad
   P creep_change;       ///< Change of xh·sgn(σ), and of xp, over the used step, rad
-  P creep_velocity;     ///< sgn(σ)·dxp/dt·h at the end of the used step, rad
-  P velocity;           ///< ω·h at the end of the used step, rad
+  P creep_velocity;     ///< Rate of creep sgn(σ)·dxp/dt·h at the end of the used step, rad
+  P velocity;           ///< Rotor velocity ω·h at the end of the used step, rad
 };
 
-/// The empty mask.
+/// The mask in which no lane is set.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask no_lanes() {
   return P(1.0) < P(0.0);
 }
 
-/// Coefficient k of ω·h, rad.
+/// Series coefficient k of the rotor's ω·h, rad.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P velocity_coefficient(const StickStep<P>& step, int k) {
   const StickSeries<P>& s = step.series;
@@ -74,19 +78,19 @@ ZEROCOUNT_ALWAYS_INLINE P velocity_coefficient(const StickStep<P>& step, int k) 
   return step.length * (s.rate[k] + P(static_cast<double>(k + 1)) * s.scaled_creep[k + 1]);
 }
 
-/// Coefficient k ≥ 1 of xs, rad.
+/// Series coefficient k ≥ 1 of the spring's elongation xs, rad.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P elongation_coefficient(const StickStep<P>& step, int k) {
   return step.length * step.series.rate[k - 1] * P(numerics::reciprocal.of[k]);
 }
 
-/// Coefficient k of σ, N m.
+/// Series coefficient k of the spring torque σ, N m.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P torque_coefficient(const StickStep<P>& step, int k) {
   return step.torque_unit * step.series.scaled_torque[k];
 }
 
-/// Chooses the length of the step, at most to the next stop.
+/// Chooses the length of the step, at most the time to the lane's next stop.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, StickStep<P>& step) {
   const TimeLanes& time = batch.time;
@@ -104,8 +108,8 @@ ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, S
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, const StickStep<P>& step);
 
-/// The lanes in which parabolas are accurate enough for ripples, to a tenth of the truncation error `allowed`
-/// (rad), over a travel of at most `reach`.
+/// The lanes in which torque ripples can be approximated by parabolas over a travel of at most `reach`: the
+/// error is at most a tenth of the truncation error `allowed` (rad).
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask is_parabolic(const StickStep<P>& step,
                                                       const VaryingTorque<P>& ripples, const P& reach,
@@ -113,8 +117,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask is_parabolic(const StickStep<P>& step,
   return ripples.cubic * (reach * reach * reach) * abs(step.length) <= P(0.1) * allowed * step.law.stiffness;
 }
 
-/// Expands the series of a step under a Forcing. Ripples are approximated by parabolas in the lanes whose
-/// travel is short enough.
+/// Computes the power series of a step under a varying torque or with a second mass. Torque ripples are
+/// approximated by parabolas in the lanes whose travel is short enough.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void expand_forced(const BatchState& batch, const At& at, Forcing forcing,
                                            const StickStart<P>& start, const P& per_torque,
@@ -246,7 +250,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_reverse_twice(const BatchState& bat
   return unsure & ((step.reverses & ~crosses_once(g, batch_order)) | (~step.reverses & may_reverse));
 }
 
-/// Locates the reversal, if any, and decides whether the step is short enough.
+/// Locates the reversal of the spring's elongation within the step, if any, and decides whether the step is
+/// short enough to be accurate.
 template <class P, class At, class F, class Applied>
 ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at, F forcing,
                                            [[maybe_unused]] const Applied& applied, StickStep<P>& step) {
@@ -281,7 +286,8 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at
   step.too_long = step.too_long | step.inexact;
 }
 
-/// Moves the end of the step to `x` in the lanes of `where`, except its velocity.
+/// Ends the used step at its fraction `x` in the lanes of `where`: evaluates the state there, except the
+/// velocity.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void end_at(const P& x, const typename P::Mask& where, StickStep<P>& step) {
   const StickSeries<P>& s = step.series;
@@ -300,7 +306,7 @@ ZEROCOUNT_ALWAYS_INLINE void end_at(const P& x, const typename P::Mask& where, S
   step.creep_change = select(where, step.length * (creep * x), step.creep_change);
 }
 
-/// Evaluates the creep law at the end of the step: sets creep_velocity.
+/// Computes the rate of creep at the end of the used step (creep_velocity).
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void evaluate_creep(StickStep<P>& step) {
   P power = step.torque * step.torque;
@@ -312,7 +318,7 @@ ZEROCOUNT_ALWAYS_INLINE void evaluate_creep(StickStep<P>& step) {
       step.creep_limit * power - step.law.creep_recovery * (step.creep_start + step.creep_change);
 }
 
-/// Evaluates the motion at the end of the step.
+/// Computes the state of motion at the end of the used step.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void evaluate_end(StickStep<P>& step) {
   const StickSeries<P>& s = step.series;

@@ -5,17 +5,17 @@
 
 namespace zerocount::batch {
 
-/// Time and sampling instants of a step. The instants within the step are passed over, so the count must be
-/// the same at all of them.
+/// Time and sampling instants of a step. The sampling instants within the step are passed over, so the
+/// encoder's count must be the same at all of them.
 template <class P>
 struct StepTiming {
   using Mask = typename P::Mask;
-  P samples_to_stop;       ///< Samples to the next stop, at the start of the step
-  P time_to_stop_then;     ///< Time to the next stop, at the end of the step, s
-  P samples_to_stop_then;  ///< Samples to the next stop, at the end of the step
-  P passed;                ///< Number of samples within the step
-  P elongation;            ///< xs at the end of the step, rad
-  P extension;             ///< xp at the end of the step, rad
+  P samples_to_stop;       ///< Number of samples to the lane's next stop, counted at the start of the step
+  P time_to_stop_then;     ///< Time from the end of the step to the lane's next stop, s
+  P samples_to_stop_then;  ///< Number of samples to the lane's next stop, counted at the end of the step
+  P passed;                ///< Number of samples within the step, which are passed over
+  P elongation;            ///< Spring elongation xs at the end of the step, rad
+  P extension;             ///< Plastic extension xp by creep at the end of the step, rad
   Mask count_may_change;   ///< The count may change within the step, so the step is not made.
 };
 
@@ -99,7 +99,7 @@ ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const At& at, co
   at.store(m.spring_torque, select(done, step.torque, at.load(m.spring_torque)));
 }
 
-/// Records the samples that the step passes, for the observer.
+/// Records the samples that the step passes over, for the observer of the batch (BatchState::passed).
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, const StickStep<P>& step,
                                            const P& passed) {
@@ -122,8 +122,8 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, cons
   }
 }
 
-/// One step of one vector; see stick_step_kernel. It is not inlined, so that each kind of vector has one
-/// copy.
+/// Integrates one step of one vector of lanes whose hook sticks; see stick_step_kernel(). It is not inlined,
+/// so that each kind of vector has one copy.
 template <bool Events, class At, class F>
 __attribute__((noinline)) void step_of(BatchState& batch, const At& at, F forcing) {
   using P = typename At::Vector;
@@ -154,10 +154,11 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at, F forcin
   if (batch.passed != nullptr) record_passed(batch, at, step, passed);
 }
 
-/// One step of each lane whose hook sticks, after stick_start_kernel and its events: to the next stop, to the
-/// first event, or as far as the series converge. Where the step was too long, only TimeLanes::next_step
+/// One integration step of each lane whose hook sticks, after stick_start_kernel() and the handling of its
+/// events. The step ends at the lane's next stop (at which its torque may change), at the first event, or
+/// where the Taylor series cease to be accurate. Where the step was too long, only TimeLanes::next_step
 /// changes. Reports events other than a reversal. With `Events` the step ends at the first of them; without,
-/// a step that has one is not made but reported as meets_event.
+/// a step that contains one is not made but reported as meets_event.
 template <class V, bool Events>
 void stick_step_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

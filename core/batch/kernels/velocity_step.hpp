@@ -4,12 +4,14 @@
 #include "core/batch/kernels/lane_group.hpp"
 #include "core/friction/sliding/slide_formulas.hpp"
 
-/// Steps of motions without a hook that sticks: slides, bristles, elements, and rotors without friction. The
-/// series of such a motion has `position`, the travel since the start of the step (rad), and `omega`, ω·h.
+/// Integration steps of motions without a sticking hook: sliding hooks, bristles, Maxwell-slip elements, and
+/// rotors without friction. The series of such a motion has `position`, the travel since the start of the
+/// step (rad), and `omega`, ω·h.
 namespace zerocount::batch {
 
-/// The step (s), at most `longest`, of a fast motion that decelerates by at most `slowing` (rad/s²): it ends
-/// where the Stribeck curve begins to matter.
+/// Length (s), at most `longest`, of a step of a motion far above the Stribeck velocity that decelerates by
+/// at most `slowing` (rad/s²). The step ends where the Stribeck curve begins to matter. @param speed |ω|,
+/// rad/s.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P fast_step(const P& speed, const P& stribeck_velocity, const P& slowing,
                                     const P& longest) {
@@ -17,8 +19,9 @@ ZEROCOUNT_ALWAYS_INLINE P fast_step(const P& speed, const P& stribeck_velocity, 
   return select(slowing * longest > above, above / slowing, longest);
 }
 
-/// The step (s) in which (ω/ωs)² changes by about 4, or far above the Stribeck velocity, where its
-/// exponential is negligible, by more. @param acceleration its absolute value, rad/s².
+/// Length (s) of a step in which (ω/ωs)² changes by about 4; more at velocities far above the Stribeck
+/// velocity ωs, where exp(−(ω/ωs)²) is negligible. @param acceleration absolute acceleration of the rotor,
+/// rad/s².
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P stribeck_step(const P& omega, const P& acceleration, const P& stribeck_velocity,
                                         const P& per_velocity_squared) {
@@ -27,7 +30,8 @@ ZEROCOUNT_ALWAYS_INLINE P stribeck_step(const P& omega, const P& acceleration, c
   return max(P(4.0), P(0.5) * (far - P(23.0))) / changing;
 }
 
-/// Whether exp(−(ω/ωs)²) may grow too much within the step for its series.
+/// Whether exp(−(ω/ωs)²) may grow too much within the step for its power series to be accurate. @param
+/// exponent series of −(ω/ωs)².
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const P* exponent) {
   P growth = max(exponent[batch_order - 1], P(0.0));
@@ -49,7 +53,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask stays_fast(const P* velocity, const P& 
                                            curvature_bound(velocity, batch_order));
 }
 
-/// Sum of the absolute values of the last two terms of a series at the end of the step.
+/// Sum of the absolute values of the last two terms of a series at the end of the step; estimates its
+/// truncation error.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P last_terms_of(const P* c) {
   return abs(c[batch_order - 1]) + abs(c[batch_order]);
@@ -59,18 +64,20 @@ ZEROCOUNT_ALWAYS_INLINE P last_terms_of(const P* c) {
 template <class P>
 struct VelocityStep {
   using Mask = typename P::Mask;
-  P time_to_stop;      ///< Time to the next stop at the start of the step, s
+  P time_to_stop;      ///< Time from the start of the step to the lane's next stop, at which its torque may
+                       ///< change, s
   P h;                 ///< Length of the full step, s
-  P x;                 ///< Fraction of the full step that is used
+  P x;                 ///< Fraction of the full step that is used, 0 to 1
   P truncation_error;  ///< Estimate of the truncation error, rad
   P allowed;           ///< Largest truncation error allowed, rad
-  Mask inexact;        ///< truncation_error > allowed
+  Mask inexact;        ///< Mask of the lanes whose truncation error exceeds the error allowed
   Mask too_long;       ///< The step is inexact, or too long for another reason; nothing moves.
-  Mask done;           ///< The motion goes on to x.
-  Mask halts;          ///< ω is 0 at x.
+  Mask done;           ///< Mask of the lanes whose motion advances to x
+  Mask halts;          ///< Mask of the lanes in which the velocity ω is 0 at x
 };
 
-/// Expands a motion in the unit of time of a step of h (s), as motion::motion_series does.
+/// Expands a motion into power series in the fraction of a step of length h (s), as motion::motion_series
+/// does in time.
 /// @param torque torque on the rotor at the start, N m. @param per_inertia 1/J. @param law friction law:
 /// receives coefficient k of the torque on the rotor, computes its own coefficients k, and returns
 /// coefficient k of the torque that accelerates the rotor.
@@ -86,8 +93,8 @@ ZEROCOUNT_ALWAYS_INLINE void expand_motion(Series& s, Applied& applied, const P&
   }
 }
 
-/// Sum of the absolute values of the last two terms of the series of a motion and its load at the end of the
-/// step.
+/// Sum of the absolute values of the last two terms of the series of a motion, and of its second mass, at the
+/// end of the step; estimates the truncation error.
 template <class Series, class Applied>
 ZEROCOUNT_ALWAYS_INLINE auto last_terms_of(const Series& s, const Applied& applied) {
   const auto of_rotor = last_terms_of(s.position) + last_terms_of(s.omega);
@@ -97,7 +104,8 @@ ZEROCOUNT_ALWAYS_INLINE auto last_terms_of(const Series& s, const Applied& appli
     return of_rotor + last_terms_of_load(applied);
 }
 
-/// A full step of length h (s) with this truncation error (rad).
+/// Creates a step whose full length h (s) is used, and marks it as too long where the truncation error (rad)
+/// exceeds the error allowed. @param time_to_stop time to the lane's next stop, s.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE VelocityStep<P> velocity_step(const BatchState& batch, const At& at,
                                                       const P& time_to_stop, const P& h,
@@ -112,9 +120,9 @@ ZEROCOUNT_ALWAYS_INLINE VelocityStep<P> velocity_step(const BatchState& batch, c
   return step;
 }
 
-/// Sets step.halts where ω comes to 0 within the step. @returns the lanes in which that is unsure, because ω
-/// may have two zeros within the step (or ω/t, if ω starts at 0). @param careful also checks the lanes in
-/// which the signs at both ends differ.
+/// Sets step.halts in the lanes whose velocity ω comes to 0 within the step. @returns the lanes in which that
+/// is uncertain, because ω may have two zeros within the step (or ω/t, if ω starts at 0). @param velocity
+/// series of ω·h. @param careful whether to check also the lanes in which the signs at both ends differ.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask halts_unsurely(const P* velocity, bool careful,
                                                         VelocityStep<P>& step) {
@@ -132,7 +140,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask halts_unsurely(const P* velocity, bool 
   return unsure & ((curvature > P(0.0)) | (part[1] != P(0.0)));
 }
 
-/// Ends the step at the instant at which ω comes to 0, unless the step is too long.
+/// Ends the step at the instant at which the velocity ω comes to 0, unless the step is too long.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void end_at_halt(const P* velocity, const At& at, VelocityStep<P>& step) {
   const auto seeks = at.taking_part() & step.halts & ~step.too_long;
@@ -143,13 +151,14 @@ ZEROCOUNT_ALWAYS_INLINE void end_at_halt(const P* velocity, const At& at, Veloci
   step.x = select(step.halts, halt, P(1.0));
 }
 
-/// ω at the end of the step, rad/s. @param velocity the series of ω·h. @param omega at the start.
+/// Velocity ω at the end of the step, rad/s. @param velocity the series of ω·h. @param omega ω at the start
+/// of the step, rad/s.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P omega_after(const VelocityStep<P>& s, const P* velocity, const P& omega) {
   return select(s.done, select(s.halts, P(0.0), value_of(velocity, batch_order, s.x) / s.h), omega);
 }
 
-/// Stores the time to the next stop after the step, and the length of the next one.
+/// Stores the time from the end of the step to the lane's next stop, and the length of the next step to try.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const VelocityStep<P>& s) {
   TimeLanes& time = batch.time;
@@ -164,7 +173,8 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const V
   at.store(time.steps, at.load(time.steps) + P(1.0));
 }
 
-/// Stores the motion after the step. @param omega ω at its start, rad/s.
+/// Stores rotor angle, velocity and second mass at the end of the step. @param omega velocity ω at the start
+/// of the step, rad/s.
 template <class P, class At, class Series, class Applied>
 ZEROCOUNT_ALWAYS_INLINE void store_motion(BatchState& batch, const At& at, const Series& s,
                                           const Applied& applied, const P& omega,
@@ -177,7 +187,8 @@ ZEROCOUNT_ALWAYS_INLINE void store_motion(BatchState& batch, const At& at, const
   if constexpr (Applied::forced) store_load(batch, at, applied, step.x, step.h, step.done);
 }
 
-/// The event beyond_kernel in the lanes that have made too many steps since the last sample.
+/// The event beyond_kernel in the lanes that have made more than max_steps_to_stop steps since the last
+/// sample; 0 in the others.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P lost_in_steps(const BatchState& batch, const At& at) {
   return events_where<P>(at.load(batch.time.steps) > P(max_steps_to_stop), beyond_kernel);

@@ -9,7 +9,7 @@
 namespace zerocount::batch {
 namespace {
 
-/// Copies the present branch of the spring for the kernels.
+/// Copies the present hysteresis branch of the spring into the batch state.
 void store_branch(BatchState& batch, int lane, const friction::HystereticSpring& spring) {
   MotionLanes& m = batch.motion;
   const friction::SpringBranch& branch = spring.branch();
@@ -79,14 +79,14 @@ void remember_depth(LaneTrial& trial) {
   trial.deepest = std::max(trial.deepest, static_cast<std::int64_t>(trial.plant->spring().depth()));
 }
 
-/// Copies the second mass, if any, from the batch state.
+/// Copies the state of the second mass, if there is one, from the batch state into `load`.
 void load_second_mass(const BatchState& batch, int lane, std::optional<motion::Load>& load) {
   if (!load) return;
   load->twist = batch.load.twist[lane];
   load->omega = batch.load.omega[lane];
 }
 
-/// Advances the plant, which is up to date, by the time to the next stop.
+/// Advances the scalar plant, which must be up to date, to the lane's next stop.
 template <class Plant>
 void advance(BatchState& batch, int lane, LaneTrial& trial, Plant& plant,
              const motion::TorqueCourse& torque) {

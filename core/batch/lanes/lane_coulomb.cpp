@@ -6,7 +6,7 @@
 namespace zerocount::batch {
 namespace {
 
-/// Advances the lanes that the last kernel could not hold by the reference engine.
+/// Lets the scalar reference engine advance the lanes whose rotor the last kernel could not hold at rest.
 void leave_rest(RunningBatch& run) {
   for (int i = 0; i < run.state.event_count; ++i) {
     const int lane = run.state.event_lanes[i];
@@ -14,7 +14,7 @@ void leave_rest(RunningBatch& run) {
   }
 }
 
-/// One step of standing lanes with a varying torque or a second mass.
+/// One step of lanes whose rotor stands still by Coulomb friction, with a varying torque or a second mass.
 void stand_coupled(RunningBatch& run, const LaneSet& lanes) {
   for_each_lane(lanes.in_both(run.lanes.loaded), [&](int lane) { stop_at_next_sample(run.state, lane); });
   follow_torques_of(run, lanes);
@@ -25,7 +25,8 @@ void stand_coupled(RunningBatch& run, const LaneSet& lanes) {
   }
 }
 
-/// Moves standing lanes under a constant torque to the next stop, or until the torque releases the rotor.
+/// Advances lanes whose rotor stands still by Coulomb friction under a constant torque: to their next stop,
+/// or until the torque releases the rotor.
 void stand_under_constant_torque(RunningBatch& run, const LaneSet& lanes) {
   BatchState& batch = run.state;
   double before[max_lanes];

@@ -103,7 +103,8 @@ void LaneDrive::send(std::int64_t k, double torque) {
   piece_end_ = late_.now + pieces_[0].duration;
 }
 
-/// Appends a piece; divides it in two at the instant at which its torque has settled.
+/// Appends a piece of the motor's torque (a time span with constant amplifier input). It is divided in two at
+/// the instant at which its torque has settled.
 void LaneDrive::add(const loop::TorquePiece& piece) {
   const double moves = motion::motor_is_constant(piece.course) ? 0.0 : motion::time_to_settle(piece.course);
   if (moves == 0.0 || moves >= piece.duration) {

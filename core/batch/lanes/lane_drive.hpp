@@ -14,17 +14,18 @@
 
 namespace zerocount::batch {
 
-/// A vibration as its Taylor series about the sampling instants k·T. The sines and cosines of the lines are
-/// turned from sample to sample, and computed anew every 256 samples.
+/// Taylor series of a vibration torque about each sampling instant k·T. The sines and cosines of its lines
+/// are advanced from sample to sample by rotation, and computed anew every 256 samples.
 class VibrationSeries {
  public:
   using Coefficients = std::array<double, vibration_order + 1>;
 
   VibrationSeries(const std::vector<motion::Vibration>& lines, double sample_time);
 
-  /// The highest order whose coefficient counts; 0 without lines.
+  /// The highest order whose coefficient of the series matters; 0 if the vibration has no lines.
   std::size_t terms() const { return terms_; }
-  /// Coefficients in (t − k·T)/T, N m, of sample k, up to the order terms(). Fastest with ascending k.
+  /// Coefficients of the vibration about sample k in powers of (t − k·T)/T, up to the order terms(), N m.
+  /// Fastest if k increases from call to call.
   Coefficients about_sample(std::int64_t k);
 
  private:
@@ -47,30 +48,34 @@ class LaneDrive {
  public:
   explicit LaneDrive(const trial::TrialParameters& parameters);
 
-  /// Sends the torque (N m) of the converter at sample k.
+  /// Passes on the torque (N m) that the converter gives at sample k; pieces of torque for the following
+  /// sample time are computed from it.
   void send(std::int64_t k, double torque);
-  /// Whether the torque on the rotor stays as it is as long as the same torque is decided.
+  /// Whether the torque on the rotor stays constant as long as the controller decides the same torque.
   bool stays() const;
 
-  /// Present piece of the motor's torque, without the disturbance.
+  /// Present piece of the motor's torque, a time span with a constant amplifier input, without the
+  /// disturbance.
   const loop::TorquePiece& piece() const { return pieces_[present_]; }
-  /// The end of the present piece, s from the nominal instant k·T of the last sample.
+  /// End of the present piece of the motor's torque, s after the nominal instant k·T of the last sample.
   double piece_end() const { return piece_end_; }
   bool is_last_piece() const { return present_ + 1 == count_; }
   void next_piece();
 
-  /// The disturbance without its constant part.
+  /// The disturbance torque on the rotor, without its constant part.
   const motion::Disturbance& disturbance() const { return disturbance_; }
-  /// Whether the torque ever varies between two stops.
+  /// Whether the torque on the rotor may vary between two stops, because the amplifier lags or the
+  /// disturbance varies.
   bool may_vary() const { return lags_ || disturbance_varies(); }
   bool disturbance_varies() const { return motion::varies(disturbance_); }
-  /// Whether the lanes have the lines of the vibration one by one, in place of vibration().
+  /// Whether the kernels get the sinusoidal lines of the vibration one by one, because they are few;
+  /// otherwise they get the series vibration().
   bool lanes_have_lines() const { return disturbance_.vibration.size() <= max_lane_lines; }
-  /// Series of the vibration about sample k, coefficients in (t − k·T)/T, N m.
+  /// Taylor series of the vibration torque about sample k: coefficients in powers of (t − k·T)/T, N m.
   VibrationSeries::Coefficients vibration(std::int64_t k) { return vibration_.about_sample(k); }
   std::size_t vibration_terms() const { return vibration_.terms(); }
   bool jitters() const { return jitters_; }
-  /// δ_k (s) of sample k.
+  /// Time δ_k (s) by which sample k is late.
   double lateness(std::int64_t k) const { return clock_.lateness(k); }
 
  private:

@@ -9,7 +9,7 @@
 namespace zerocount::batch {
 namespace {
 
-/// Measures of one lane, copied from the batch state.
+/// Measures of the move of one lane, copied from the batch state.
 trial::RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) {
   trial::RunningMeasures<double> measures;
   trial::for_each_measure([lane](double& to, const Lanes& from) { to = from[lane]; }, measures, lanes);
@@ -27,7 +27,7 @@ std::array<trial::BandMeasures<double>, trial::max_error_bands> bands_of(const M
   return bands;
 }
 
-/// The outcome of the move that ends now. @param stopped whether the move has diverged.
+/// Computes the outcome of the lane's move, which ends now. @param stopped whether the move has diverged.
 trial::MoveOutcome outcome_of(const BatchState& batch, int lane, LaneTrial& trial, bool stopped) {
   const trial::TrialParameters& p = *trial.parameters;
   const MeasureLanes& q = batch.measures;

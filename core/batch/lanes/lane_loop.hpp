@@ -13,36 +13,39 @@
 
 namespace zerocount::batch {
 
-/// The sampled loop of a lane that the sampling kernels lack, from the angle to the converter's torque:
-/// encoders, SampledLoop or OpenLoop, errors of the converter. The kernels move the rotor and keep the
-/// measures of the error.
+/// Scalar sampled control loop of one lane of the batch engine, for features that the vectorised sampling
+/// kernels lack. It covers the path from the angle to the converter's torque: encoders, SampledLoop or
+/// OpenLoop, and errors of the converter. The kernels move the rotor and keep the measures of the error.
 class LaneLoop {
  public:
   explicit LaneLoop(const trial::TrialParameters& parameters);
 
-  /// Starts move `number` towards `target` (counts), whose first sample has this number from the start of the
-  /// trial.
+  /// Starts move `number` towards `target` (counts). @param first_sample number of the move's first sample,
+  /// counted from the start of the trial.
   void start_move(std::size_t number, std::int64_t target, std::int64_t first_sample);
 
   struct Decision {
-    std::int64_t count;  ///< Count of the fine encoder, less reference_offset()
+    std::int64_t count;  ///< Count of the fine encoder minus reference_offset(), counts
     loop::DacOutput dac;
     double torque;  ///< Torque that the converter gives, N m
-    bool may_stay;  ///< The torque stays while count and error stay 0.
-    bool stays;     ///< The torque stays until the end of the move, and no random number is drawn.
+    bool may_stay;  ///< Whether the torque stays as it is while count and error stay 0
+    bool stays;     ///< Whether the torque stays until the end of the move, and no random number is drawn
   };
-  /// Decides sample i of the move. @param theta angle of the mass that the encoder reads, rad. @param other
-  /// angle of the other mass, rad. @returns nothing if the encoder cannot count θ, or the controller gives no
-  /// finite torque.
+  /// Runs encoders, controller and converter at sample i of the move. @param theta angle of the mass that the
+  /// encoder reads, rad. @param other angle of the other mass, rad. @returns the decision; empty if the
+  /// encoder cannot count θ, or the controller gives no finite torque.
   std::optional<Decision> sample(std::int64_t i, double theta, double other);
 
-  /// Whether the trial has torque levels, so that the loop is open and errors are not measured.
+  /// Whether the trial has torque levels in place of targets, so that the loop is open and errors are not
+  /// measured.
   bool is_open() const { return open_.has_value(); }
 
-  /// Reference − target at the last sample, counts; 0 unless the reference moves for ever.
+  /// Reference minus target at the last sample, counts. It is 0 unless the reference never comes to rest (a
+  /// sine or a record).
   std::int64_t reference_offset() const { return reference_offset_; }
 
-  /// Ends the move: adds the measures that this loop keeps to the outcome of the move.
+  /// Ends the move: adds the measures that this loop computes, such as the position error, to the outcome of
+  /// the move.
   void finish(trial::MoveOutcome& outcome);
 
  private:

@@ -19,14 +19,14 @@
 namespace zerocount::batch {
 namespace {
 
-/// Whether a dither or the remainder of a sigma-delta converter changes the torque from sample to sample for
-/// ever.
+/// Whether the torque changes from sample to sample for ever, because of a dither or the carried-over
+/// rounding error of a sigma-delta converter.
 bool never_settles(const trial::TrialParameters& p) {
   return p.controller.dither.amplitude != 0.0 || p.dac.sigma_delta;
 }
 
-/// Whether the loop needs the scalar control law, because a window of counts or a delayed velocity command
-/// would be a queue in every lane.
+/// Whether the controller needs queues, for a window of counts or a delayed velocity command. The vectorised
+/// lanes have none, so that the scalar control law must run.
 bool has_queues(const loop::ControlBlocks& blocks) {
   const loop::CascadeParameters& c = blocks.cascade;
   return blocks.derivative_window > 1 || (blocks.structure == loop::ControlStructure::cascade &&
@@ -34,13 +34,14 @@ bool has_queues(const loop::ControlBlocks& blocks) {
                                            c.resolution > 0.0 || std::isfinite(c.limit)));
 }
 
-/// Whether blocks behind the integral start in the steady state of a torque that the integral holds.
+/// Whether controller blocks behind the integral (filters, observer) start in the steady state of a torque
+/// that the integral holds.
 bool starts_with_held_blocks(const trial::TrialParameters& p) {
   const loop::ControlBlocks& blocks = p.controller.blocks;
   return (!blocks.filters.empty() || blocks.observer.bandwidth > 0.0) && trial::held_torque(p) != 0.0;
 }
 
-/// Whether noise of the fine encoder is the only error of encoders and converter that is drawn.
+/// Whether the noise of the fine encoder is the only random error of encoders and converter.
 bool has_noise_alone(const trial::TrialParameters& p) {
   const loop::EncoderErrors& e = p.encoder.fine_errors;
   return e.noise != 0.0 && e.eccentricity == 0.0 && e.interpolation == 0.0 && e.missed == 0.0 &&
@@ -71,7 +72,8 @@ std::string_view lacking(const loop::ControllerParameters& controller,
   return velocity_by_other || (user.plugin && loop::has_other(encoders)) ? "encoder.load" : "";
 }
 
-/// @param max_frequency highest frequency of a vibration whose series over a sample is accurate, Hz.
+/// The feature of a disturbance that the vectorised lanes lack, as a noun phrase; empty if they have all of
+/// them. @param max_frequency highest frequency of a vibration whose series over a sample is accurate, Hz.
 std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMotion motion,
                          double max_frequency) {
   [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = disturbance;
@@ -97,7 +99,7 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
   return ripple.size() > max_lane_ripples ? "more than eight ripples" : "";
 }
 
-/// Features of the load side that the trial has. The lanes lack all of them.
+/// The features of the second mass that the trial has and the vectorised lanes lack, as noun phrases.
 std::vector<std::string_view> lacking(const motion::LoadParameters& load,
                                       const trial::LoadSideParameters& side) {
   [[maybe_unused]] const auto& [inertia, stiffness, damping, encoder, gap, damping_to_ground] = load;
@@ -119,7 +121,8 @@ std::string_view lacking(const trial::CommandParameters& command) {
   return targets.empty() && torque.levels.empty() ? "no moves" : "";
 }
 
-/// Whether each move has at least one sample. A torque level without a hold may have none.
+/// Whether each move of the trial has at least one sample. A move to a torque level without a hold may have
+/// none.
 bool has_samples(const trial::TrialParameters& p) {
   const std::size_t moves = p.command.torque.levels.empty() ? 1 : p.command.torque.levels.size();
   for (std::size_t m = 0; m < moves; ++m)
@@ -127,7 +130,8 @@ bool has_samples(const trial::TrialParameters& p) {
   return true;
 }
 
-/// The features of the trial that the lanes of its friction model lack.
+/// The features of the trial that the vectorised lanes lack, as noun phrases; `motion` is the kind of kernel
+/// of its friction model.
 std::vector<std::string_view> lacking(const trial::TrialParameters& p, LaneMotion motion) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
                                 verdict, randomness, disturbance, load_side] = p;

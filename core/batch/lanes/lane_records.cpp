@@ -8,7 +8,8 @@
 namespace zerocount::batch {
 namespace {
 
-/// Sets θ of a sample that was passed. In an open loop the count follows it.
+/// Sets the rotor angle θ in the record of a sample that was passed over. In an open loop the count is
+/// computed from it.
 void set_passed_theta(RunningBatch& run, int lane, double theta, BatchSample& sample) {
   const LoopLanes& l = run.state.loop;
   sample.theta = theta;
@@ -17,7 +18,7 @@ void set_passed_theta(RunningBatch& run, int lane, double theta, BatchSample& sa
     sample.count = static_cast<std::int64_t>(loop::ideal_count(theta, l.resolution[lane], l.phase[lane]));
 }
 
-/// Sample `k` of the present move with the count and the code of the last sample.
+/// Record of sample `k` of the present move, with the count and the code of the last sample.
 BatchSample present_sample(RunningBatch& run, int lane, std::int64_t k) {
   const LaneTrial& trial = run.trial_of(lane);
   BatchSample sample;

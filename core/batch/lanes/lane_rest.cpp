@@ -8,9 +8,9 @@
 namespace zerocount::batch {
 namespace {
 
-/// The time (s) in which θ moves by `distance` (rad, positive) in the direction of creep; infinite if it
-/// never does. Computed with the present stiffness of the spring (N m/rad): accurate to a small fraction of a
-/// sample.
+/// The time (s) in which the rotor angle θ moves by `distance` (rad, positive) in the direction of creep;
+/// infinite if it never does. @param stiffness present stiffness of the spring, N m/rad; with it the result
+/// is accurate to a small fraction of a sample.
 double time_to_creep(const friction::CreepAtRest& creep, double distance, double stiffness) {
   // The spring stretches as the damper's torque falls, in proportion to the growth of creep.
   const double per_creep = creep.s1 * creep.g1 / stiffness;
@@ -27,7 +27,7 @@ double count_at(const BatchState& batch, int lane, double theta) {
   return loop::ideal_count(theta, batch.loop.resolution[lane], batch.loop.phase[lane]);
 }
 
-/// Creep and residual oscillation of a lane at rest, from now on.
+/// Quasi-static creep and residual oscillation of a lane at rest, from now on.
 struct RestAhead {
   friction::CreepAtRest creep;
   friction::ResidualOscillation oscillation;
@@ -40,13 +40,13 @@ RestAhead rest_ahead(const LanePlant::Rest& rest) {
   return ahead;
 }
 
-/// Whether all samples may be passed whatever the encoder reads, as in an open loop.
+/// Whether all samples may be passed over whatever the encoder reads, as in an open loop.
 bool is_open(const BatchState& batch, int lane) {
   return batch.loop.quiet_to[lane] == HUGE_VAL;
 }
 
-/// Whether a sample at θ may be passed, because the count is the last one and the position lies within the
-/// quiet range (LoopLanes::quiet_from).
+/// Whether a sample at the rotor angle θ (rad) may be passed over, because the count is the last one and the
+/// position lies within the quiet range (LoopLanes::quiet_from).
 bool is_quiet(const BatchState& batch, int lane, double theta) {
   const LoopLanes& l = batch.loop;
   if (is_open(batch, lane)) return true;
@@ -55,9 +55,9 @@ bool is_quiet(const BatchState& batch, int lane, double theta) {
   return !(within < l.quiet_from[lane]) && !(within > l.quiet_to[lane]);
 }
 
-/// A time (s) for which samples are quiet (LoopLanes::quiet_from): until creep plus the bound of the residual
-/// oscillation reaches an edge of the count, or of the quiet positions in it. Zero if the oscillation alone
-/// may reach one.
+/// A time (s) for which no sample of a lane at rest matters (LoopLanes::quiet_from): until creep plus the
+/// bound of the residual oscillation reaches an edge of the count, or of the quiet positions in it. Zero if
+/// the oscillation alone may reach one.
 double quiet_time(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
   const LoopLanes& l = batch.loop;
   if (is_open(batch, lane)) return HUGE_VAL;
@@ -80,12 +80,12 @@ double quiet_time(const BatchState& batch, int lane, const RestAhead& rest, cons
   return time;
 }
 
-/// The sampling instants of a lane at rest, which may be late.
+/// The sampling instants ahead of a lane at rest; samples may be late.
 struct InstantsAhead {
   double to_first;         ///< Time from now to the next sample, s
-  double sample_time;      ///< T, s
+  double sample_time;      ///< Sample time T, s
   const LaneDrive* drive;  ///< Gives the lateness of each sample; null without late samples
-  double max_lateness;     ///< Largest lateness of a sample, s
+  double max_lateness;     ///< Largest time by which a sample may be late, s
   std::int64_t first;      ///< Number of the next sample from the start of the trial
 
   /// Lateness δ (s) of the i-th sample from now, i ≥ 1.
@@ -102,7 +102,8 @@ struct InstantsAhead {
   }
 };
 
-/// Number of samples after the i-th sample from now (i = 0: the present instant) that are likely to be quiet.
+/// Number of samples after the i-th sample from now (i = 0: the present instant) that can probably be passed
+/// over because the count stays.
 double quiet_samples(const BatchState& batch, int lane, const LanePlant& plant, const InstantsAhead& instants,
                      double i) {
   const double time = quiet_time(batch, lane, rest_ahead(*plant.rest()), plant);
@@ -120,12 +121,14 @@ bool is_unmoved(const BatchState& batch, int lane, const LanePlant& plant) {
          motion.creep.extension == batch.motion.extension[lane] && !motion.sliding;
 }
 
-/// Number of samples at rest that are evaluated one by one before the motion is described ahead.
+/// Number of samples at rest that are evaluated one by one before the slow motion is described ahead by
+/// polynomials.
 constexpr int samples_one_by_one = 4;
 constexpr double max_span = 256.0;  // samples
 constexpr double min_span = 8.0;    // fewer are not worth the description
 
-/// Stores the cubic through values at 0, 1/3, 2/3 and 1 in the lane. @returns its value at ½.
+/// Stores the cubic polynomial through the values a, b, c, d at 0, 1/3, 2/3 and 1 in the lane. @returns its
+/// value at ½.
 double store_cubic(Lanes (&to)[4], int lane, double a, double b, double c, double d) {
   const double first = b - a;
   const double second = (c - b) - first;
@@ -136,11 +139,11 @@ double store_cubic(Lanes (&to)[4], int lane, double a, double b, double c, doubl
   return cubic[0] + 0.5 * (cubic[1] + 0.5 * (cubic[2] + 0.5 * cubic[3]));
 }
 
-/// The motion at rest without its residual oscillation.
+/// The slow motion at rest by creep, without its residual oscillation.
 struct SlowMotion {
-  double elongation;  ///< xs, rad
-  double extension;   ///< xp, rad
-  double hardening;   ///< xh, rad
+  double elongation;  ///< Elongation xs of the spring, rad
+  double extension;   ///< Plastic extension xp by creep, rad
+  double hardening;   ///< Hardening xh by creep, rad
 };
 
 SlowMotion slow_motion(const LanePlant& plant) {
@@ -151,8 +154,8 @@ SlowMotion slow_motion(const LanePlant& plant) {
           motion.creep.hardening - rest.creep.sign * oscillation.extension};
 }
 
-/// Describes the motion at rest over the next samples by cubics. @returns whether they are accurate to 1e-9
-/// count.
+/// Describes the slow motion at rest over the next samples by cubic polynomials (CreepAheadLanes). @returns
+/// whether they are accurate to 1e-9 count.
 bool describe_ahead(BatchState& batch, int lane, LaneTrial& trial, double torque) {
   CreepAhead& ahead = trial.ahead;
   if (ahead.span < min_span) return false;
@@ -187,8 +190,8 @@ bool describe_ahead(BatchState& batch, int lane, LaneTrial& trial, double torque
   return true;
 }
 
-/// Describes the motion of the lane at rest from now on, and follows it to the next stop, one sample ahead.
-/// @returns whether there is a description.
+/// Describes the slow motion of the lane at rest from now on by polynomials, and follows it to the next stop,
+/// one sample ahead. @returns whether there is a description.
 bool follow_ahead(RunningBatch& run, int lane, double torque) {
   BatchState& batch = run.state;
   LaneTrial& trial = run.trial_of(lane);
@@ -201,7 +204,8 @@ bool follow_ahead(RunningBatch& run, int lane, double torque) {
   return true;
 }
 
-/// Accounts for `samples` samples with zero error and an unchanged torque.
+/// Updates the measures of the lane's move by `samples` further samples with zero error and an unchanged
+/// torque.
 void pass_samples(BatchState& batch, int lane, double samples) {
   MeasureLanes& q = batch.measures;
   trial::ArrivalMeasures<double> arrival;
@@ -217,7 +221,8 @@ bool is_late_and_steady(const RunningBatch& run, int lane) {
          run.state.loop.steady[lane] != 0.0 && !run.lanes.noisy.contains(lane);
 }
 
-/// Instants of the next `max_samples` samples. @param late drive of a lane with late samples; otherwise null.
+/// The next `max_samples` sampling instants of the lane. @param late drive of a lane with late samples;
+/// otherwise null.
 InstantsAhead instants_ahead(const BatchState& batch, int lane, const LaneDrive* late, double max_samples) {
   const double to_last = batch.time.time_to_stop[lane];
   const double sample_time = batch.time.sample_time[lane];
@@ -226,7 +231,7 @@ InstantsAhead instants_ahead(const BatchState& batch, int lane, const LaneDrive*
   return {to_last, sample_time, late, d.jitter[lane], static_cast<std::int64_t>(d.sample[lane])};
 }
 
-/// Implements come_to_rest(), except the set LaneStates::ahead.
+/// Implements come_to_rest(), except that it does not update the set LaneStates::ahead.
 bool rest(RunningBatch& run, int lane) {
   BatchState& batch = run.state;
   LaneTrial& trial = run.trial_of(lane);

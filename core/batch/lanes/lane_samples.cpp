@@ -21,7 +21,8 @@ void follow_jerk(RunningBatch& run, int lane, LaneTrial& trial) {
   run.state.measures.in_jerk[lane] = trial.jerks.in_jerk() ? 1.0 : 0.0;
 }
 
-/// Runs the trials of the lanes anew by the scalar engine whose encoder could not count θ at this sample.
+/// Runs the trials of those lanes anew by the scalar engine whose encoder could not count the angle θ at this
+/// sample.
 void rerun_unreadable(RunningBatch& run) {
   BatchState& batch = run.state;
   for (int i = 0; i < batch.event_count; ++i) {
@@ -33,7 +34,7 @@ void rerun_unreadable(RunningBatch& run) {
   }
 }
 
-/// Processes the sampling instant of the lanes `due` by the kernel.
+/// Processes the sampling instant of the lanes `due` by the given sampling kernel.
 void sample(RunningBatch& run, void (*kernel)(BatchState&, const LaneSet&), const LaneSet& due) {
   if (due.empty()) return;
   BatchState& batch = run.state;
@@ -60,7 +61,8 @@ void sample(RunningBatch& run, void (*kernel)(BatchState&, const LaneSet&), cons
   }
 }
 
-/// Lets the LaneLoop of each lane decide its torque. @returns the lanes whose LaneLoop gave a decision.
+/// Lets the LaneLoop of each lane in `due` decide its torque. @returns the lanes whose LaneLoop gave a
+/// decision.
 LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
   LoopLanes& l = run.state.loop;
   LaneSet decided = due;
@@ -85,8 +87,8 @@ LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
   return decided;
 }
 
-/// Takes the position error of each lane at this sample, and finds out within which positions its next
-/// samples may be passed.
+/// Measures the position error of each lane in `due` at this sample, and finds out within which positions its
+/// next samples may be passed over.
 void measure_position(RunningBatch& run, const LaneSet& due) {
   LoopLanes& l = run.state.loop;
   for_each_lane(due.in_both(run.lanes.with_position), [&](int lane) {

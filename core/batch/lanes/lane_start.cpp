@@ -21,8 +21,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Counts of the fine encoder before the first sample. The fine encoder closes every loop that the kernels
-/// run.
+/// The counts of the fine encoder before the first sample of the trial. The fine encoder closes every loop
+/// that the kernels run.
 loop::CountsBefore counts_before(const trial::TrialParameters& p) {
   const loop::StartOfMotion start = trial::start_of_motion(p);
   return {loop::fine_encoder(p.encoder, start.phase), start.theta, start.velocity,
@@ -58,7 +58,7 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.read_twist[lane] = 0.0;
 }
 
-/// Stores a whole number as two words of 32 bits.
+/// Stores a whole number as two 32-bit words, each an exact double.
 void store_words(std::uint64_t number, double& low, double& high) {
   low = static_cast<double>(static_cast<std::uint32_t>(number));
   high = static_cast<double>(number >> 32);
@@ -129,7 +129,8 @@ void start_time(TimeLanes& time, int lane, const trial::TrialParameters& p, doub
   time.per_count[lane] = 1.0 / resolution;
 }
 
-/// Laws without a hook move θ itself and read the count at each sample, as a sliding hook does.
+/// Sets the start of motion of a lane whose friction law has no hook. Such laws move θ itself and read the
+/// count at each sample, as a sliding hook does.
 void start_without_hook(BatchState& batch, int lane, double velocity) {
   MotionLanes& m = batch.motion;
   m.slide_direction[lane] = 1.0;

@@ -8,10 +8,11 @@
 namespace zerocount::batch {
 namespace {
 
-/// Largest number of samples that noisy_rest_kernel may pass in one call.
+/// Largest number of samples that one call of noisy_rest_kernel() may pass over.
 constexpr int max_passed_samples = 256;
 
-/// Applies the rest rule. @returns whether the lane was at rest; then it is at a sampling instant.
+/// Applies the rest rule to the lane. @returns whether the lane was at rest; then it is at a sampling
+/// instant.
 bool rests(RunningBatch& run, int lane) {
   if (!run.lanes.varying.contains(lane)) return come_to_rest(run, lane);
   follow_reference(run, lane);
@@ -19,7 +20,8 @@ bool rests(RunningBatch& run, int lane) {
   return true;
 }
 
-/// Brings the plants up to date in the lanes whose rest ends because the torque has changed.
+/// Brings the scalar plants up to date in those lanes whose rest, described ahead by polynomials, ends
+/// because the torque has changed.
 void wake_ahead(RunningBatch& run, const LaneSet& lanes) {
   if (run.lanes.ahead.empty()) return;
   const MotionLanes& m = run.state.motion;
@@ -30,7 +32,8 @@ void wake_ahead(RunningBatch& run, const LaneSet& lanes) {
   });
 }
 
-/// Handles the events at the start of a step. Removes the lanes that do not take the step from `lanes`.
+/// Handles the events at the start of a step of lanes whose hook sticks. Removes the lanes that do not take
+/// the step from `lanes`.
 void start_sticking_steps(RunningBatch& run, LaneSet& lanes) {
   BatchState& batch = run.state;
   for (int i = 0; i < batch.event_count; ++i) {
@@ -50,7 +53,7 @@ void start_sticking_steps(RunningBatch& run, LaneSet& lanes) {
   }
 }
 
-/// Handles the events at the end of a step.
+/// Handles the events at the end of a step of lanes whose hook sticks.
 void end_sticking_steps(RunningBatch& run) {
   if (run.observers->sample) report_passed_samples(run);
   BatchState& batch = run.state;
@@ -72,7 +75,8 @@ void end_sticking_steps(RunningBatch& run) {
   }
 }
 
-/// One step of sticking lanes under this forcing. @returns the number of lanes that took a step.
+/// One integration step of lanes whose hook sticks, under this forcing. @returns the number of lanes that
+/// took a step.
 int step_sticking(RunningBatch& run, LaneSet lanes, Forcing forcing) {
   const LaneSet varying = lanes.in_both(run.lanes.varying);
   for (const bool varies : {false, true}) {
@@ -88,7 +92,7 @@ int step_sticking(RunningBatch& run, LaneSet lanes, Forcing forcing) {
   return lanes.count();
 }
 
-/// Moves the waiting lanes up to their events.
+/// Advances the lanes in LaneStates::waiting to the events in their steps.
 void locate_events(RunningBatch& run) {
   const LaneSet waiting = std::exchange(run.lanes.waiting, {});
   for_each_lane(waiting, [&](int lane) { run.lanes.sticking.insert(lane); });
@@ -117,7 +121,7 @@ void step_sliding(RunningBatch& run, const LaneSet& lanes, Forcing forcing) {
   end_sliding_steps(run);
 }
 
-/// Runs the trials of the lanes that the last kernel could not follow anew by the scalar engine.
+/// Runs the trials of those lanes anew by the scalar engine whose motion the last kernel could not follow.
 void rerun_lost_lanes(RunningBatch& run) {
   for (int i = 0; i < run.state.event_count; ++i) fall_back_to_scalar(run, run.state.event_lanes[i]);
 }
@@ -135,7 +139,7 @@ void step_elements(RunningBatch& run, const LaneSet& lanes, Forcing forcing) {
   rerun_lost_lanes(run);
 }
 
-/// Moves the lanes that are at rest under a constant torque on to their next stop. @returns the other lanes.
+/// Advances the lanes that are at rest under a constant torque to their next stop. @returns the other lanes.
 LaneSet without_resting(RunningBatch& run, const LaneSet& lanes, Forcing forcing, Kernels::Rest rest) {
   const LaneSet steady = lanes.without(run.lanes.varying);
   return steady.empty() ? lanes : lanes.without(steady.without(rest(run.state, steady, forcing)));
@@ -145,7 +149,8 @@ LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
   return lanes.without(run.kernels.lanes_at_stop(run.state));
 }
 
-/// Moves lanes without friction through a part of a sample.
+/// Moves lanes without friction through a part of a sample, where the torque does not last exactly one sample
+/// time.
 void move_free_part(RunningBatch& run, const LaneSet& lanes) {
   MotionLanes& m = run.state.motion;
   TimeLanes& time = run.state.time;
@@ -159,7 +164,7 @@ void move_free_part(RunningBatch& run, const LaneSet& lanes) {
   });
 }
 
-/// Moves lanes without friction and with a second mass.
+/// One integration step of lanes without friction and with a second mass.
 void move_loaded_free(RunningBatch& run, const LaneSet& lanes) {
   follow_torques_of(run, lanes);
   for (const auto& [forcing, some] : by_forcing(run, lanes)) {
@@ -169,7 +174,7 @@ void move_loaded_free(RunningBatch& run, const LaneSet& lanes) {
   }
 }
 
-/// Lanes at rest in which only the noisy encoder decides how long the torque stays.
+/// The lanes at rest whose torque stays until the reading of their noisy encoder changes.
 LaneSet waiting_for_noise(const RunningBatch& run, const LaneSet& ahead) {
   LaneSet lanes = ahead.in_both(run.lanes.noisy).without(run.lanes.with_position);
   const DriveLanes& d = run.state.drive;
@@ -180,7 +185,8 @@ LaneSet waiting_for_noise(const RunningBatch& run, const LaneSet& ahead) {
   return lanes;
 }
 
-/// Moves lanes at rest along the description of their motion. @returns the lanes that it has moved.
+/// Advances lanes at rest along the polynomial description of their slow motion. @returns the lanes that it
+/// has moved.
 LaneSet follow_descriptions(RunningBatch& run, const LaneSet& ahead) {
   LaneSet moved;
   if (const LaneSet noisy = waiting_for_noise(run, ahead); !noisy.empty()) {

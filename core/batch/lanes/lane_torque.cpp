@@ -6,7 +6,7 @@
 namespace zerocount::batch {
 namespace {
 
-/// Stores the series of the vibration about sample k in the lane.
+/// Stores the Taylor series of the vibration torque about sample k in the lane.
 void store_vibration(BatchState& batch, int lane, LaneDrive& drive, std::int64_t k) {
   const VibrationSeries::Coefficients vibration = drive.vibration(k);
   for (std::size_t j = 0; j <= drive.vibration_terms(); ++j) batch.course.vibration[j][lane] = vibration[j];
@@ -20,7 +20,8 @@ void hold_torque(BatchState& batch, int lane, double torque) {
   batch.course.decay[lane] = 0.0;
 }
 
-/// Sets the torque of the lane to the present piece of its drive, and its next stop to the end of the piece.
+/// Sets the torque of the lane to the present piece of its drive's torque, and its next stop to the end of
+/// that piece.
 void store_piece(BatchState& batch, int lane, const LaneDrive& drive) {
   const loop::TorquePiece& piece = drive.piece();
   CourseLanes& c = batch.course;
@@ -35,7 +36,7 @@ void store_piece(BatchState& batch, int lane, const LaneDrive& drive) {
   batch.time.time_to_stop[lane] = piece.duration;
 }
 
-/// Starts the drive kernel for the lane.
+/// Sets the initial state of delay and amplifier, as the drive kernel uses it, for the lane.
 void start_drive_kernel(DriveLanes& d, int lane, const LaneTrial& trial) {
   const trial::TrialParameters& p = *trial.parameters;
   const LaneDrive& drive = *trial.drive;

@@ -18,61 +18,69 @@
 
 namespace zerocount::batch {
 
-/// The scalar plant of a lane with a hook.
+/// Scalar plant that takes over a lane of the batch engine whose friction model has a hook (pre-sliding law).
 using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
-/// The scalar plant of a lane with Coulomb friction alone.
+/// Scalar plant that takes over a lane of the batch engine with Coulomb friction alone.
 using CoulombPlant = plant::PlantWith<friction::CoulombFriction>;
 
-/// How far ahead the motion of a lane at rest is described (CreepAheadLanes).
+/// Decides how far ahead the slow motion of a lane at rest is described by polynomials (CreepAheadLanes).
 struct CreepAhead {
-  int samples{0};     ///< Samples evaluated one by one since the lane came to rest
-  double span{16.0};  ///< Number of samples that the next description covers
+  int samples{0};     ///< Number of samples evaluated one by one since the lane came to rest
+  double span{16.0};  ///< Number of samples that the next polynomial description of the slow motion covers
 };
 
-/// State of a lane that the kernels do not use: its trial, the memory of the spring, measures per jerk.
+/// State of one lane of the batch engine that the kernels do not use: its trial, the reversal points of the
+/// spring, and the measures per jerk.
 struct LaneTrial {
   const trial::TrialParameters* parameters{nullptr};
   std::size_t number{0};  ///< Index of the trial in the batch.
   trial::TrialOutcome* outcome{nullptr};
   std::size_t move{0};
-  std::int64_t first_sample{0};  ///< Number of the move's first sample, from the start of the trial.
+  std::int64_t first_sample{0};  ///< Number of the present move's first sample, counted from the start of the
+                                 ///< trial
   LaneMotion motion{LaneMotion::contact};
 
-  /// The contact, in lanes with LaneMotion::contact. Only its spring is always current; call load_motion()
-  /// before reading anything else.
+  /// Scalar plant of a lane with LaneMotion::contact. Only its spring is always up to date; call
+  /// load_motion() before reading anything else.
   std::optional<LanePlant> plant;
   CreepAhead ahead;
-  /// Scalar plant in lanes with LaneMotion::coulomb. Call load_motion() before reading its motion.
+  /// Scalar plant of a lane with LaneMotion::coulomb. Call load_motion() before reading its motion.
   std::optional<CoulombPlant> coulomb;
-  double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
-  double breakaway_spring_torque{0.0};  ///< Spring torque σb of the slide, N m
-  double read_twist{0.0};               ///< LoopLanes::read_twist at the last sample, rad
+  double elongation_tolerance{0.0};  ///< Truncation error of the motion allowed per step
+                                     ///< (MotionTolerance::elongation), rad
+  double breakaway_spring_torque{
+      0.0};                ///< Torque σb of the contact's spring when the present slide began, N m
+  double read_twist{0.0};  ///< Rotor angle minus the encoder's angle at the last sample, if the
+                           ///< encoder reads the second mass (LoopLanes::read_twist), rad
 
-  std::int64_t breakaways{0};  ///< Breakaways in the present move.
-  bool slid_at_start{false};   ///< The contact slid when the present move began.
-  std::int64_t deepest{0};     ///< Largest depth of the reversal stack in the present move.
+  std::int64_t breakaways{
+      0};  ///< Number of times in the present move that the contact has broken away into a slide
+  bool slid_at_start{false};  ///< Whether the contact was sliding when the present move began
+  std::int64_t deepest{0};    ///< Largest number of reversal points on the spring's stack in the present
+                              ///< move
 
-  trial::Jerks jerks;              ///< Jerks of the present move.
-  std::int64_t reported_jerks{0};  ///< Jerks of the trial that have been reported.
-  trial::LastHalf last_half;       ///< Last half of the present move.
+  trial::Jerks jerks;              ///< Excursions of the error from zero after arrival, in the present move
+  std::int64_t reported_jerks{0};  ///< Number of jerks of the trial that have been reported to the observer
+  trial::LastHalf last_half;       ///< Motion of the count in the last half of the present move
 
   std::optional<LaneLoop> loop;  ///< Scalar sampled loop; only in a trial that needs_lane_loop().
-  /// Measures the position error. Only in a trial that asks for it and has no LaneLoop, which would measure
-  /// it.
+  /// Measures the position error of the lane. Present only in a trial that asks for it and has no LaneLoop,
+  /// which would measure it itself.
   std::optional<trial::PositionError> position;
   std::optional<LaneDrive> drive;  ///< Scalar drive; only in a trial that needs_lane_drive().
 };
 
 // The contact between batch state and plant. (contact_changes.cpp)
 
-/// Copies the lane's motion from the batch state into its plant.
+/// Copies the motion of lane `lane` from the batch state into the scalar plant of `trial`.
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
-/// Copies the plant's motion and spring branch into the batch state.
+/// Copies motion and spring branch of the scalar plant of `trial` into the batch state.
 void store_motion(BatchState& batch, int lane, LaneTrial& trial);
-/// Calls store_motion() and copies the contact's parameters, which a slide or a scalar step may have changed.
+/// Calls store_motion(), and copies the parameters of the friction contact, which a slide or a scalar step
+/// may have changed, into the batch state.
 void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 
-/// Copies the level of friction of a slide into the batch state.
+/// Copies the sliding friction level (Stribeck curve) of a new slide into the batch state.
 void store_level(BatchState& batch, int lane, const friction::FrictionParameters& contact);
 
 /// Copies the state of the second mass into the batch state.
@@ -81,7 +89,7 @@ void store_load(BatchState& batch, int lane, const motion::Load& load);
 /// The present time of a lane with a drive, s from the start of the trial.
 double time_of(const BatchState& batch, int lane, const LaneTrial& trial);
 
-/// Makes the next sampling instant the next stop.
+/// Sets the time of the lane's next stop to its next sampling instant.
 void stop_at_next_sample(BatchState& batch, int lane);
 
 // Changes of the contact, as PreslidingFriction makes them. (contact_changes.cpp)
@@ -90,14 +98,14 @@ void close_loop(BatchState& batch, int lane, LaneTrial& trial);
 void end_creep(BatchState& batch, int lane, LaneTrial& trial);
 void break_away(BatchState& batch, int lane, LaneTrial& trial);
 void re_stick(BatchState& batch, int lane, LaneTrial& trial);
-/// Advances to the next sample by the lane's scalar plant. @param torque torque on the rotor, N m, without a
-/// varying disturbance. @returns whether the motion stayed finite.
+/// Advances the lane to its next sample by its scalar plant. @param torque torque on the rotor without a
+/// varying disturbance, N m. @returns whether the motion stayed finite.
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque);
 
-/// Starts the trial that `trial` names, with its first move, in the lane. (lane_start.cpp)
+/// Starts the trial with the index `trial.number`, with its first move, in the lane. (lane_start.cpp)
 void start_trial(BatchState& batch, int lane, LaneTrial& trial);
 void start_move(BatchState& batch, int lane, LaneTrial& trial);
-/// Starts to measure slides and reversals of the move: from its first sample on.
+/// Starts counting breakaways and reversal points for the present move, at its first sample.
 void start_slides(const BatchState& batch, int lane, LaneTrial& trial);
 
 // Lanes with LaneMotion::coulomb. (lane_coulomb.cpp)
@@ -105,21 +113,22 @@ void start_coulomb(BatchState& batch, int lane, LaneTrial& trial);
 void load_motion(const BatchState& batch, int lane, CoulombPlant& plant);
 void store_contact(BatchState& batch, int lane, const CoulombPlant& plant);
 
-/// Stores a stream of random numbers of the trial in the lane. (lane_start.cpp)
+/// Stores the key and counters of a random number stream of the trial in the lane. (lane_start.cpp)
 void store_random(RandomLanes& to, int lane, const random::TrialRandomness& of, const random::RandomKey& key);
 
-/// Starts the drive of a trial that needs one. (lane_torque.cpp)
+/// Starts delay, amplifier and disturbance of a trial that needs them. (lane_torque.cpp)
 void start_drive(BatchState& batch, int lane, LaneTrial& trial);
 /// The torque on the rotor from now on in a lane with a varying torque. It leaves out a varying disturbance.
 /// (lane_torque.cpp)
 motion::TorqueCourse present_course(const BatchState& batch, int lane);
 
-/// Ends the description of the lane's motion ahead. (lane_rest.cpp)
+/// Discards the polynomial description of the lane's slow motion ahead (CreepAheadLanes). (lane_rest.cpp)
 void forget_ahead(BatchState& batch, int lane, LaneTrial& trial);
-/// Advances the plant of a lane at rest to where the lane is. (lane_rest.cpp)
+/// Advances the scalar plant of a lane at rest, which lags behind, to the present time of the lane.
+/// (lane_rest.cpp)
 void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial);
 
-/// Calls `visit` with each quantity of a struct of Lanes alone, in their order.
+/// Calls `visit` with each member of a struct that consists of Lanes members only, in their order.
 template <class Numbers, class Visit>
 void for_each_quantity(Numbers& numbers, Visit visit) {
   constexpr std::size_t quantities = sizeof(Numbers) / sizeof(Lanes);
@@ -128,7 +137,8 @@ void for_each_quantity(Numbers& numbers, Visit visit) {
   for (std::size_t i = 0; i < quantities; ++i) visit(first[i]);
 }
 
-/// Stores the fields of a struct, such as loop::IntegralConstants, in the lane.
+/// Stores the members of a struct of constants, such as loop::IntegralConstants, in the same members of `to`,
+/// for one lane.
 template <template <class> class Struct>
 void store_constants(Struct<Lanes>& to, int lane, const Struct<double>& from) {
   double fields[sizeof to / sizeof(Lanes)];
@@ -138,12 +148,12 @@ void store_constants(Struct<Lanes>& to, int lane, const Struct<double>& from) {
   for_each_quantity(to, [&](Lanes& quantity) { quantity[lane] = *field++; });
 }
 
-/// Number of the last sample from the start of the trial; −1 before the first.
+/// Number of the lane's last sample, counted from the start of the trial; −1 before the first.
 inline std::int64_t last_sample(const BatchState& batch, int lane, const LaneTrial& trial) {
   return trial.first_sample + static_cast<std::int64_t>(batch.measures.samples[lane]) - 1;
 }
 
-/// θ of the rotor, rad.
+/// Angle θ of the lane's rotor, rad.
 inline double theta_of(const BatchState& batch, int lane) {
   const MotionLanes& m = batch.motion;
   return m.slide_direction[lane] != 0.0 ? m.theta[lane]

@@ -13,41 +13,43 @@
 
 namespace zerocount::batch {
 
-/// The lanes by their state.
+/// Sets of lanes of the batch engine, by the state of their trials.
 struct LaneStates {
-  LaneSet active;  ///< Lanes with a trial.
+  LaneSet active;  ///< Lanes that run a trial
 
   // Motion: each active lane is in one of these.
-  LaneSet sticking;  ///< The hook sticks.
-  LaneSet waiting;  ///< The hook sticks, and an event lies in the step. It is located once enough lanes wait.
-  LaneSet standing;  ///< Coulomb friction holds the rotor.
-  LaneSet sliding;   ///< The hook slides, or the rotor slides against Coulomb friction.
-  LaneSet bristles;  ///< The friction law has a bristle or elements.
-  LaneSet elements;  ///< Subset of `bristles` with elements.
+  LaneSet sticking;  ///< Lanes whose friction contact sticks and acts as a spring
+  LaneSet waiting;   ///< Lanes whose friction contact sticks, with an event in the next step. The event is
+                     ///< located once enough lanes wait.
+  LaneSet standing;  ///< Lanes whose rotor is held still by Coulomb friction
+  LaneSet sliding;   ///< Lanes whose friction contact slides, by the pre-sliding law or by Coulomb friction
+  LaneSet bristles;  ///< Lanes whose friction law has a bristle or Maxwell-slip elements
+  LaneSet elements;  ///< Subset of `bristles`: lanes with Maxwell-slip elements
   LaneSet free;      ///< Lanes without friction.
 
   // Decision at a sample: the PID law alone, if in neither.
-  LaneSet with_blocks;  ///< The controller has blocks.
-  LaneSet with_loop;    ///< A LaneLoop decides.
+  LaneSet with_blocks;  ///< Lanes whose controller has blocks beyond the PID law
+  LaneSet with_loop;    ///< Lanes whose torque a scalar LaneLoop decides
 
-  LaneSet noisy;  ///< The encoder has noise that the kernels read.
+  LaneSet noisy;  ///< Lanes whose encoder has noise that the kernels simulate
 
-  LaneSet with_position;  ///< The position error is measured, and not by a LaneLoop.
+  LaneSet with_position;  ///< Lanes whose position error is measured here, not by a LaneLoop
 
-  LaneSet amplified;     ///< The torque passes the drive kernel.
-  LaneSet vibrating;     ///< Lanes with a vibration given as a series.
-  LaneSet before_start;  ///< The first sample is late and has not been taken yet.
+  LaneSet amplified;     ///< Lanes whose decided torque passes through the drive kernel (delay and amplifier)
+  LaneSet vibrating;     ///< Lanes with a vibration torque that is given as a Taylor series
+  LaneSet before_start;  ///< Lanes whose first sample is late and has not been taken yet
 
   // Torque until the next stop: constant for a whole sample, if in none.
-  LaneSet varying;   ///< The torque varies until the next stop.
-  LaneSet part;      ///< The stop ends only a part of a sample.
-  LaneSet changing;  ///< The stop lies within a sample, and the torque changes there.
+  LaneSet varying;   ///< Lanes whose torque varies until their next stop
+  LaneSet part;      ///< Lanes whose present piece of torque does not last exactly one sample time
+  LaneSet changing;  ///< Lanes whose next stop lies between two samples, where their torque changes
 
   LaneSet loaded;  ///< Lanes with a second mass.
-  /// Subset of `loaded` whose torque may vary. Their steps always follow CourseLanes.
+  /// Subset of `loaded` whose torque may vary. Their integration steps always use CourseLanes.
   LaneSet loaded_driven;
 
-  LaneSet ahead;  ///< At rest, with a plant that lags behind the lane (CreepAheadLanes).
+  LaneSet ahead;  ///< Lanes at rest that follow a polynomial description of their slow motion
+                  ///< (CreepAheadLanes); their scalar plant lags behind
 
   std::array<LaneSet*, 21> all() {
     return {&active,       &sticking,    &waiting,   &standing, &sliding,       &bristles,      &elements,
@@ -56,27 +58,27 @@ struct LaneStates {
   }
 };
 
-/// A batch of trials in work: the trials in the lanes, and what remains to be done.
+/// A batch of trials while it runs: the trials in the lanes, and the trials that remain to be started.
 struct RunningBatch {
   explicit RunningBatch(const BatchSettings& settings);
 
   LaneTrial& trial_of(int lane) { return trials[trial_index[lane]]; }
-  /// Samples of the present move so far.
+  /// Number of samples of the lane's present move so far.
   std::int64_t samples_of(int lane) const { return static_cast<std::int64_t>(state.measures.samples[lane]); }
 
   const Kernels& kernels;
-  std::vector<LaneTrial> trials;         ///< One per lane.
+  std::vector<LaneTrial> trials;         ///< States of the trials in the lanes, one per lane
   std::size_t trial_index[max_lanes]{};  ///< Index in `trials` of the trial in each lane.
-  BatchState state{};                    ///< State of all lanes, as the kernels need it.
+  BatchState state{};                    ///< State of all lanes as the kernels use it
   PassedSamples passed_samples[max_lanes]{};
   LaneStates lanes;
 
   const TrialSource* source{nullptr};
   std::span<trial::TrialOutcome> outcomes;
   const BatchObservers* observers{nullptr};
-  std::size_t next_trial{0};  ///< Index in the batch of the trial to start next.
+  std::size_t next_trial{0};  ///< Index in the batch of the next trial to start
   std::int64_t rounds{0};
-  int used_lanes{0};  ///< Lanes from this index on are idle.
+  int used_lanes{0};  ///< Number of lanes in use; lanes from this index on are idle
 };
 
 // The life of a lane. BatchEngine::run() calls the stages in this order; each takes all lanes that are due.
@@ -94,19 +96,20 @@ struct RunningBatch {
 //     end_moves                  the outcome of the move
 //   start_next_trial
 
-/// Starts the next trial that lanes can run, if any, in this lane. Runs the trials before it that lanes
-/// cannot run by run_trial(). (lane_start.cpp)
+/// Starts in this lane the next trial that lanes can run, if any is left. Runs the trials before it that
+/// lanes cannot run with run_trial(). (lane_start.cpp)
 void start_next_trial(RunningBatch& run, int lane);
 
-/// Goes on to the next piece of the torque in the lanes that stop within a sample. (lane_torque.cpp)
+/// Begins the next piece of the motor's torque in the lanes that have stopped within a sample time.
+/// (lane_torque.cpp)
 void change_torques(RunningBatch& run);
 
 /// Ends the moves whose samples have all been taken; their lanes go on to the next move or trial. @returns
-/// the lanes at a sampling instant. (lane_end.cpp)
+/// the lanes that are at a sampling instant. (lane_end.cpp)
 LaneSet end_moves(RunningBatch& run);
 
-/// Processes the sampling instant of the lanes `due`: encoders, controller, converter, and measures. A lane
-/// that diverges goes on to the next trial. (lane_samples.cpp)
+/// Processes one sampling instant of the lanes `due`: encoders, controller, converter, and measures. A lane
+/// whose move diverges goes on to the next trial. (lane_samples.cpp)
 void take_samples(RunningBatch& run, const LaneSet& due);
 
 // One step of each lane that is between two stops: to its next stop, or to an event before it.
@@ -119,29 +122,32 @@ void move_free(RunningBatch& run);
 
 // Parts of the stages.
 
-/// Inserts the lane, which has a trial, into the set of its motion. (lane_steps.cpp)
+/// Inserts the lane, which has a trial, into the set of LaneStates that matches its state of motion.
+/// (lane_steps.cpp)
 void set_motion(RunningBatch& run, int lane);
 
-/// Advances the lane to its next sample by its scalar plant. Runs its trial anew if the motion does not stay
-/// finite. @returns whether it does. (lane_steps.cpp)
+/// Advances the lane to its next sample by its scalar plant. If the motion does not stay finite, the whole
+/// trial is run anew by run_trial(). @returns whether the motion stayed finite. (lane_steps.cpp)
 bool follow_reference(RunningBatch& run, int lane);
 
-/// Divides lanes by their forcing. (lane_steps.cpp)
+/// Divides the lanes into four sets by whether their torque varies and whether they have a second mass.
+/// (lane_steps.cpp)
 std::array<std::pair<Forcing, LaneSet>, 4> by_forcing(const RunningBatch& run, const LaneSet& lanes);
-/// Computes the torques whose series the steps of these lanes follow. (lane_steps.cpp)
+/// Computes the varying torques of these lanes and their Taylor series, for the next steps. (lane_steps.cpp)
 void follow_torques_of(RunningBatch& run, const LaneSet& lanes);
 
-/// Passes the torques decided at this sample through the drive kernel. (lane_torque.cpp)
+/// Passes the torques decided at this sample through the drive kernel (delay and amplifier).
+/// (lane_torque.cpp)
 void amplify(RunningBatch& run, const LaneSet& lanes);
-/// Starts the present piece of the torque of the lane's drive. (lane_torque.cpp)
+/// Makes the present piece of the LaneDrive's torque the torque of the lane. (lane_torque.cpp)
 void begin_piece(RunningBatch& run, int lane);
-/// Lets the lane's drive make the torque on the rotor from the torque decided at the last sample. If it does
-/// not stay, the next stop is the end of its first piece. (lane_torque.cpp)
+/// Computes the torque on the rotor by the lane's LaneDrive from the torque decided at the last sample. If it
+/// does not stay constant, the lane's next stop is the end of its first piece. (lane_torque.cpp)
 void drive_torque(RunningBatch& run, int lane);
 
-/// Applies the rest rule. A lane at rest advances in closed form, by creep and residual oscillation, to the
-/// next stop or to the first sampling instant at which its count differs. @returns whether the lane was at
-/// rest; then it is at a stop. (lane_rest.cpp)
+/// Applies the rest rule to the lane. A lane at rest advances in closed form, by creep and residual
+/// oscillation, to its next stop or to the first sampling instant at which its count differs. @returns
+/// whether the lane was at rest; then it is at a stop. (lane_rest.cpp)
 bool come_to_rest(RunningBatch& run, int lane);
 
 /// Ends the lane's trial, whose move has diverged at the last sample. (lane_end.cpp)
@@ -150,22 +156,26 @@ void stop_diverged(RunningBatch& run, int lane);
 /// (lane_end.cpp)
 void run_scalar(RunningBatch& run, const LaneTrial& trial, std::int64_t reported_jerks,
                 std::int64_t reported_samples);
-/// Runs the lane's trial anew by run_trial(): the kernels cannot follow its motion, or the count of its
-/// encoder has overflowed. (lane_end.cpp)
+/// Runs the lane's trial anew by run_trial(), because the kernels cannot follow its motion, or because the
+/// count of its encoder has overflowed. (lane_end.cpp)
 void fall_back_to_scalar(RunningBatch& run, int lane);
-/// Moves trials from the last lanes to idle ones, once no trials are left to start in those. Kernels are
-/// faster on neighbouring lanes, which share cache lines. (lane_end.cpp)
+/// Moves trials from the last lanes to idle lanes, once no trials are left to start. Kernels are faster on
+/// neighbouring lanes, which share cache lines. (lane_end.cpp)
 void close_gaps(RunningBatch& run);
 
-/// Reports the last jerk of the trial that has ended. (lane_records.cpp)
+/// Reports the last jerk of the trial, which has ended, to the observer. (lane_records.cpp)
 void report_jerk(RunningBatch& run, LaneTrial& trial);
-/// Reports the sample that has been taken last. (lane_records.cpp)
+/// Reports the lane's last sample to the observer. (lane_records.cpp)
 void report_sample(RunningBatch& run, int lane);
-/// Reports the samples within steps, from their series. (lane_records.cpp)
+/// Reports the samples that integration steps passed over, evaluated from their series, to the observer.
+/// (lane_records.cpp)
 void report_passed_samples(RunningBatch& run);
-/// Reports, for each lane between two samples, the last sample that it has passed at rest.
+/// Reports, for each lane that stands between two samples, the last sample that it has passed over at rest to
+/// the observer.
 void report_passed_at_rest(RunningBatch& run, const LaneSet& lanes);
-/// Reports a sample at rest, `passed` samples after the last one taken. (lane_records.cpp)
+/// Reports a sample passed over at rest to the observer. @param passed number of samples since the last one
+/// taken. @param theta rotor angle at the sample, rad. @param creep state of creep at the sample.
+/// (lane_records.cpp)
 void report_sample_at_rest(RunningBatch& run, int lane, double passed, double theta,
                            const friction::CreepState& creep);
 

@@ -58,7 +58,8 @@ bool Bristle::sliding() const {
   return bristle_slides(parameters_, deflection_, omega_, level_at(parameters_.level, omega_));
 }
 
-/// Whether the bristle is saturated; sets z to its end if so.
+/// Whether the rotor is fast and the bristle has reached the deflection of steady sliding, within rounding.
+/// If so, sets z to that deflection. @param direction direction of the motion, −1 or 1.
 bool Bristle::saturates(double direction) {
   if (!(std::abs(omega_) > parameters_.fast)) return false;
   const double end = direction * parameters_.level.coulomb / parameters_.stiffness;

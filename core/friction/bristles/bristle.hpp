@@ -10,7 +10,8 @@
 
 namespace zerocount::friction {
 
-/// Constants of a bristle, with the velocities 8·ωs and 6.5·ωs (slide_formulas.hpp).
+/// Constants of an elastic bristle (Dahl, LuGre), with the velocities 8·ωs and 6.5·ωs between which the
+/// Stribeck curve ceases to matter (slide_formulas.hpp).
 struct BristleParameters : BristleConstants<double> {
   double fast;  ///< |ω| beyond which g(ω) = Fc to the last bit, rad/s; 0 if g is constant
   double slow;  ///< |ω| above which g(ω) = Fc to 6e-19 of Fs − Fc, rad/s; 0 if g is constant
@@ -33,18 +34,18 @@ struct BristleMotion {
   enum class Event { none, velocity_zero, slow_again };
 
   const BristleParameters& parameters;
-  double direction;  ///< s, −1 or 1
+  double direction;  ///< Direction s of the motion, −1 or 1
   bool saturated;
-  double& theta;       ///< rad
-  double& omega;       ///< rad/s
-  double& deflection;  ///< z, rad
+  double& theta;       ///< Rotor angle θ, rad
+  double& omega;       ///< Rotor velocity ω, rad/s
+  double& deflection;  ///< Deflection z of the bristle, rad
 
-  /// Whether g equals Fc throughout the motion.
+  /// Whether the friction level g(ω) equals Fc throughout the motion.
   bool has_constant_level() const { return saturated || parameters.level.excess == 0.0; }
   BristleSeries start() const;
   double expand(BristleSeries& s, std::size_t k, double torque) const;
-  /// Longest step with a truncation error of z within the tolerance of θ, because an error of z becomes an
-  /// error of ω.
+  /// Longest step in which the truncation error of the bristle's deflection z stays within the tolerance of
+  /// θ, because an error of z becomes an error of ω. @param duration longest step to consider, s. @returns s.
   static double step_of_state(const BristleSeries& series, double tolerance, double duration) {
     return motion::step_within(series.deflection, series.omega, series.exponent, tolerance, duration);
   }
@@ -52,10 +53,10 @@ struct BristleMotion {
   void go_to(const BristleSeries& series, const motion::NextEvent<Event>& next);
 };
 
-/// Base of the laws of Dahl and LuGre: one elastic bristle that stands for all asperities.
+/// Base of the friction laws of Dahl and LuGre, with one elastic bristle that stands for all asperities.
 ///
-/// Rest rule. Where bristle_rests() bounds all further travel under a constant torque u by
-/// MotionTolerance::rest, the rotor is at rest, ω = 0 and z = u/σ0, until the torque changes. A bristle
+/// Rest rule: where bristle_rests() bounds all further travel under a constant torque u by
+/// MotionTolerance::rest, the rotor is at rest, with ω = 0 and z = u/σ0, until the torque changes. A bristle
 /// without damping never comes to rest.
 class Bristle : public WithoutCreepAndReversals {
  public:
@@ -63,7 +64,8 @@ class Bristle : public WithoutCreepAndReversals {
   static constexpr bool remembers_loading = false;
   static constexpr Breakaway breakaway = Breakaway::gradual;
 
-  /// Starts with z = 0, or, with `start.sliding` and ω ≠ 0, with the z of steady sliding, sgn(ω)·g(ω)/σ0.
+  /// Starts with the deflection z = 0 or, if `start.sliding` and ω ≠ 0, with the deflection of steady
+  /// sliding, sgn(ω)·g(ω)/σ0.
   Bristle(const BristleParameters& parameters, double inertia, const motion::PlantStart& start,
           const motion::MotionTolerance& tolerance);
 
@@ -71,10 +73,10 @@ class Bristle : public WithoutCreepAndReversals {
 
   double theta() const { return theta_; }
   double omega() const { return omega_; }
-  /// Whether friction without the damping d is above 0.99·g(ω).
+  /// Whether the contact counts as sliding: its friction without the damping d is above 0.99·g(ω).
   bool sliding() const;
   static std::int64_t breakaways() { return 0; }
-  double deflection() const { return deflection_; }  ///< z, rad
+  double deflection() const { return deflection_; }  ///< Deflection z of the bristle, rad
 
  private:
   bool saturates(double direction);
@@ -110,7 +112,7 @@ class DahlFriction : public Bristle {
                               {stribeck_curve(contact).coulomb, 0.0, 0.0});
   }
 
-  /// The parameters are those at the start, wherever the rotor goes.
+  /// Starts the rotor. The friction parameters are those at the start position, wherever the rotor goes.
   DahlFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
                const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
       : Bristle(bristle(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}
@@ -137,7 +139,7 @@ class LuGreFriction : public Bristle {
     return bristle_parameters(contact.sigma0, contact.sigma1, plant.sliding_damping, stribeck_curve(contact));
   }
 
-  /// The parameters are those at the start, wherever the rotor goes.
+  /// Starts the rotor. The friction parameters are those at the start position, wherever the rotor goes.
   LuGreFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
                 const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
       : Bristle(bristle(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}

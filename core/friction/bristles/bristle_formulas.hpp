@@ -4,37 +4,40 @@
 
 #include "core/friction/sliding/slide_formulas.hpp"
 
-/// The law of a bristle, for double and for the vectors of the batch engine.
+/// Formulas of a friction law with an elastic bristle, as templates for double and for the vectors of the
+/// batch engine.
 namespace zerocount::friction {
 
 template <class Number>
 struct BristleConstants {
-  Number stiffness;               ///< σ0, N m/rad
-  Number bristle_damping;         ///< σ1, N m s/rad
+  Number stiffness;               ///< Stiffness σ0 of the bristle, N m/rad
+  Number bristle_damping;         ///< Damping σ1 of the bristle, N m s/rad
   Number damping;                 ///< Viscous damping d of the rotor, N m s/rad
-  StribeckCurveOf<Number> level;  ///< Friction level g(ω)
+  StribeckCurveOf<Number> level;  ///< Friction level g(ω), a Stribeck curve
 };
 
-/// The constants with times in the unit of h (s).
+/// The constants converted to the time unit h (s), so that time derivatives are per h.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE BristleConstants<Number> in_unit_of_time(const BristleConstants<Number>& of,
                                                                  const Number& h) {
   return {of.stiffness, of.bristle_damping / h, of.damping / h, in_unit_of_time(of.level, h)};
 }
 
-/// Taylor series of a bristle and its rotor. @tparam Series an array of the coefficients.
+/// Taylor series in time of the motion of a bristle and its rotor. @tparam Series an array of the
+/// coefficients.
 template <class Series>
 struct BristleSeriesOf : LevelSeriesOf<Series> {
-  Series position;    ///< θ, rad
-  Series omega;       ///< ω, rad/s
-  Series deflection;  ///< z, rad
-  Series ratio;       ///< ω·z/g(ω), rad²/(N m s)
+  Series position;    ///< Rotor angle θ, rad
+  Series omega;       ///< Rotor velocity ω, rad/s
+  Series deflection;  ///< Deflection z of the bristle, rad
+  Series ratio;       ///< Ratio ω·z/g(ω) of the bristle's equation, rad²/(N m s)
 };
 
-/// Computes coefficients k of functions of the state, and k + 1 of θ and z (BristleMotion).
-/// @tparam ConstantLevel whether g is Fc. @param direction s. @param saturated whether z stays as it is; only
-/// with a constant level. @param torque coefficient k of u. @returns coefficient k of u − σ0·z − σ1·dz/dt −
-/// d·ω.
+/// Computes the Taylor coefficients k of the friction level and of the ratio ω·z/g(ω), and k + 1 of θ and z
+/// (BristleMotion).
+/// @tparam ConstantLevel whether the friction level g is Fc. @param direction sign s of ω. @param saturated
+/// whether z stays as it is; only with a constant level. @param torque coefficient k of the torque u on the
+/// rotor. @returns coefficient k of the accelerating torque u − σ0·z − σ1·dz/dt − d·ω.
 template <bool ConstantLevel, class Number, class Mask, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number bristle_coefficient(const BristleConstants<Number>& of,
                                                    const Number& direction,
@@ -56,8 +59,8 @@ ZEROCOUNT_ALWAYS_INLINE Number bristle_coefficient(const BristleConstants<Number
   return torque - of.stiffness * s.deflection[k] - of.bristle_damping * rate - of.damping * s.omega[k];
 }
 
-/// Whether friction without the damping d is above 0.99·g(ω): the bristle counts as sliding.
-/// @param level g(ω), N m.
+/// Whether the contact counts as sliding: its friction without the viscous damping d is above 0.99·g(ω).
+/// @param deflection z, rad. @param omega ω, rad/s. @param level g(ω), N m.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto bristle_slides(const BristleConstants<Number>& of, const Number& deflection,
                                             const Number& omega, const Number& level) {
@@ -65,10 +68,11 @@ ZEROCOUNT_ALWAYS_INLINE auto bristle_slides(const BristleConstants<Number>& of, 
   return abs(of.stiffness * deflection + of.bristle_damping * rate) > Number(0.99) * level;
 }
 
-/// Whether the bristle of a fast rotor may be set to its end. The distance |z − end|, which decays as
-/// exp(−σ0·∫|ω|dt/Fc), changes ω by Fc·|z − end|/(J·|ω|): here by at most 1e-12 of ω.
+/// Whether the bristle of a fast rotor may be set to its deflection in steady sliding, `end`. The distance |z
+/// − end|, which decays as exp(−σ0·∫|ω|dt/Fc), changes ω by Fc·|z − end|/(J·|ω|); the function is true if
+/// this is at most 1e-12 of ω.
 /// @param deflection z, rad. @param end sgn(ω)·Fc/σ0, rad. @param coulomb Fc, N m. @param inertia J, kg m².
-/// @param omega rad/s.
+/// @param omega ω, rad/s.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto is_at_end(const Number& deflection, const Number& end, const Number& coulomb,
                                        const Number& inertia, const Number& omega) {

@@ -17,7 +17,7 @@ std::vector<GmsElement> gms_like_the_spring() {
 
 namespace {
 
-/// Access to the elements, as the formulas of gms_formulas.hpp need it.
+/// Gives the formulas of gms_formulas.hpp access to the Maxwell-slip elements.
 struct Elements {
   std::span<GmsState> states;
 
@@ -60,7 +60,8 @@ double GmsMotion::step_of_state(const GmsSeries& series, double tolerance, doubl
   return step;
 }
 
-/// Whether a sticking element may come to the lowest level, Fc, within the step.
+/// Whether the torque of a sticking element may reach the lowest level at which it slips, that of Fc, within
+/// the step (s).
 bool GmsMotion::may_slip(const GmsSeries& series, double step) const {
   const double excursion = numerics::excursion_bound(series.position, step);
   return std::any_of(elements.begin(), elements.end(), [&](const GmsState& state) {
@@ -69,7 +70,7 @@ bool GmsMotion::may_slip(const GmsSeries& series, double step) const {
   });
 }
 
-/// Series of the margin ηi·g(ω) − s·Fi of a sticking element.
+/// Taylor series of a sticking element's margin to slipping, ηi·g(ω) − s·Fi.
 numerics::Series GmsMotion::margin_of(const GmsState& state, const GmsSeries& series) const {
   numerics::Series margin;
   for (std::size_t k = 0; k <= numerics::series_order; ++k)
@@ -122,7 +123,7 @@ GmsFriction::GmsFriction(const motion::PlantParameters& plant, const FrictionAlo
   if (!start.history.empty()) load_slowly(0.0);
 }
 
-/// Loads the elements slowly: each yields at ηi·g(0), to which it relaxes in slow motion.
+/// Loads the elements slowly to the torque (N m): each yields at ηi·g(0), to which it relaxes in slow motion.
 void GmsFriction::load_slowly(double torque) {
   const double direction = numerics::sign_of(torque - this->torque());
   const double level = level_at(constants_.level, 0.0);
@@ -152,7 +153,7 @@ double GmsFriction::torque() const {
   return sum;
 }
 
-/// Stiffness of the softest spring, N m/rad.
+/// Stiffness of the softest Maxwell-slip element, N m/rad.
 double GmsFriction::softest() const {
   return std::ranges::min(elements_, {}, &GmsState::stiffness).stiffness;
 }

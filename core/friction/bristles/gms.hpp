@@ -32,17 +32,17 @@ struct GmsMotion {
 
   std::span<GmsState> elements;
   GmsConstants<double> law;  ///< Constants of the law, with acting_attraction() as the attraction.
-  double direction;          ///< s, −1 or 1
-  double& theta;             ///< rad
-  double& omega;             ///< rad/s
+  double direction;          ///< Direction s of the motion, −1 or 1
+  double& theta;             ///< Rotor angle θ, rad
+  double& omega;             ///< Rotor velocity ω, rad/s
   GmsSums<double> sums;      ///< Sums over the elements at the start of the step.
 
   GmsSeries start() const;
   double expand(GmsSeries& s, std::size_t k, double torque) const {
     return gms_coefficient(law, sums, direction, s, k, torque);
   }
-  /// Longest step within the tolerance, s. It bounds the errors of the torques of slipping elements, and of
-  /// the level that sticking ones may reach, by the tolerance times the largest stiffness.
+  /// Longest step within the tolerance, s. It bounds the errors of two torques by the tolerance (rad) times
+  /// the largest stiffness: the torques of slipping elements, and the level that sticking elements may reach.
   double step_of_state(const GmsSeries& series, double tolerance, double duration) const;
   void complete(GmsSeries& s) const { s.expand_level(law.level, s.omega.data(), numerics::series_order); }
   motion::NextEvent<Event> first_event(const GmsSeries& series, double step) const;
@@ -80,8 +80,8 @@ class GmsFriction : public WithoutCreepAndReversals {
   static LinearContacts linear_contacts(const motion::PlantParameters& plant,
                                         const FrictionAlongRotor& friction, const FrictionParameters&);
 
-  /// The parameters are those at the start, wherever the rotor goes. With `start.sliding` and a velocity all
-  /// elements slip steadily at first, Fi = sgn(ω)·ηi·g(ω).
+  /// Starts the rotor. The friction parameters are those at the start position, wherever the rotor goes. With
+  /// `start.sliding` and a velocity, all elements slip steadily at first, Fi = sgn(ω)·ηi·g(ω).
   GmsFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
               const motion::PlantStart& start, const motion::MotionTolerance& tolerance);
 
@@ -89,7 +89,7 @@ class GmsFriction : public WithoutCreepAndReversals {
 
   double theta() const { return theta_; }
   double omega() const { return omega_; }
-  /// Whether all elements slip.
+  /// Whether the contact slides: all of its elements slip.
   bool sliding() const;
   static std::int64_t breakaways() { return 0; }
   std::span<const GmsState> elements() const { return elements_; }

@@ -2,45 +2,47 @@
 
 #include "core/friction/sliding/slide_formulas.hpp"
 
-/// The law of elements that stick or slip (GmsMotion), for double and for the vectors of the batch engine.
+/// Formulas of a friction law whose elements stick or slip (GmsMotion), as templates for double and for the
+/// vectors of the batch engine.
 ///
-/// `Elements` has all elements of a rotor: each(visit) passes them to visit(state), and change(visit) lets it
-/// change them.
+/// The template parameter `Elements` gives access to all elements of a rotor: each(visit) passes them to
+/// visit(state), and change(visit) lets visit change them.
 namespace zerocount::friction {
 
-/// An element of the Maxwell-slip model with its state.
+/// One element of the generalised Maxwell-slip friction model, a spring that sticks or slips, with its state.
 template <class Number>
 struct GmsStateOf {
-  Number stiffness;  ///< κi, N m/rad
-  Number weight;     ///< ηi
-  Number torque;     ///< Fi, N m
+  Number stiffness;  ///< Stiffness κi of the element, N m/rad
+  Number weight;     ///< Proportion ηi of the friction level that the element carries
+  Number torque;     ///< Torque Fi of the element, N m
   decltype(Number(0.0) < Number(0.0)) slips;
 };
 
 template <class Number>
 struct GmsConstants {
-  StribeckCurveOf<Number> level;  ///< g
-  Number attraction;              ///< C, N m/s
-  Number damping;                 ///< cs, N m s/rad
+  StribeckCurveOf<Number> level;  ///< Friction level g(ω)
+  Number attraction;              ///< Attraction C, the rate at which a slipping element's torque goes to its
+                                  ///< level, N m/s
+  Number damping;                 ///< Viscous damping cs, N m s/rad
 };
 
-/// The constants with times in the unit of h (s).
+/// The constants converted to the time unit h (s), so that time derivatives are per h.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE GmsConstants<Number> in_unit_of_time(const GmsConstants<Number>& of,
                                                              const Number& h) {
   return {in_unit_of_time(of.level, h), of.attraction * h, of.damping / h};
 }
 
-/// Sums over the sticking elements, and over the slipping elements.
+/// Sums over the sticking and over the slipping Maxwell-slip elements of a contact.
 template <class Number>
 struct GmsSums {
-  Number sticking_torque;     ///< N m
-  Number sticking_stiffness;  ///< N m/rad
-  Number slipping_torque;     ///< N m
+  Number sticking_torque;     ///< Sum of the torques of the sticking elements, N m
+  Number sticking_stiffness;  ///< Sum of the stiffnesses of the sticking elements, N m/rad
+  Number slipping_torque;     ///< Sum of the torques of the slipping elements, N m
   Number slipping_weight;     ///< Sum H of the weights ηi of the slipping elements
 };
 
-/// Torque of all elements, Σ Fi, N m.
+/// Torque of all Maxwell-slip elements together, Σ Fi, N m.
 template <class Number, class Elements>
 ZEROCOUNT_ALWAYS_INLINE Number torque_of_elements(const Elements& elements) {
   Number sum(0.0);
@@ -48,8 +50,10 @@ ZEROCOUNT_ALWAYS_INLINE Number torque_of_elements(const Elements& elements) {
   return sum;
 }
 
-/// Sets elements within rounding of their level in this direction to the level; they slip.
-/// @param direction s, or 0. @param level g(ω), N m. @returns the sums afterwards.
+/// Lets the elements slip whose torque equals, within rounding, the level at which they slip in this
+/// direction; their torque is set to that level.
+/// @param direction sign s of the motion, or 0. @param level friction level g(ω), N m. @returns the sums over
+/// all elements afterwards.
 template <class Number, class Elements>
 ZEROCOUNT_ALWAYS_INLINE GmsSums<Number> begin_to_slip(Elements& elements, const Number& direction,
                                                       const Number& level) {
@@ -71,9 +75,11 @@ ZEROCOUNT_ALWAYS_INLINE GmsSums<Number> begin_to_slip(Elements& elements, const 
   return sums;
 }
 
-/// The rest rule of GmsFriction. If the rotor is at rest, the elements that hold it take over the difference
-/// between the torque and ΣFi. @param level g(0), N m. @param rest ε, rad. @returns whether the rotor is at
-/// rest.
+/// Applies the rest rule of GmsFriction. If the rotor is at rest, the elements that hold it take over the
+/// difference between the torque and ΣFi.
+/// @param torque torque on the rotor, N m. @param omega ω, rad/s. @param level g(0), N m. @param rest largest
+/// travel ε that counts as rest, rad. @param load_is_quiet whether a second mass, if any, permits rest.
+/// @returns whether the rotor is at rest.
 template <class Number, class Elements, class Mask>
 ZEROCOUNT_ALWAYS_INLINE Mask rest_on_elements(Elements& elements, const Number& torque, const Number& omega,
                                               const Number& level, const Number& inertia, const Number& rest,
@@ -100,16 +106,17 @@ ZEROCOUNT_ALWAYS_INLINE Mask rest_on_elements(Elements& elements, const Number& 
 /// Taylor series of the elements and their rotor. @tparam Series an array of the coefficients.
 template <class Series>
 struct GmsSeriesOf : LevelSeriesOf<Series> {
-  Series position;        ///< Travel since the start of the step, rad
-  Series omega;           ///< ω, rad/s
-  Series slipping;        ///< Torque of all slipping elements, N m
+  Series position;        ///< Travel of the rotor since the start of the step, rad
+  Series omega;           ///< Rotor velocity ω, rad/s
+  Series slipping;        ///< Torque of all slipping elements divided by the friction level, slipping/g(ω)
   Series slipping_ratio;  ///< slipping/g(ω)
-  Series fading;          ///< Decay factor E of GmsMotion, dimensionless
-  Series fading_ratio;    ///< fading/g(ω), 1/(N m)
+  Series fading;          ///< Decay factor E, from 1, by which slipping elements approach their levels
+                          ///< (GmsMotion), dimensionless
+  Series fading_ratio;    ///< Decay factor E divided by the friction level, fading/g(ω), 1/(N m)
 };
 
-/// Attraction C if there are slipping elements that relax, else 0. If g is constant, slipping elements stay
-/// at its level and do not relax.
+/// Attraction C of the law if there are slipping elements that relax, otherwise 0. If the friction level g is
+/// constant, slipping elements stay at their level and do not relax.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number acting_attraction(const GmsConstants<Number>& of,
                                                  const GmsSums<Number>& sums) {
@@ -117,9 +124,10 @@ ZEROCOUNT_ALWAYS_INLINE Number acting_attraction(const GmsConstants<Number>& of,
   return select((sums.slipping_weight > zero) & (of.level.excess != zero), of.attraction, zero);
 }
 
-/// Computes coefficients k of functions of the state, and k + 1 of the state except ω.
-/// @param of constants of the law, with acting_attraction() as the attraction. @param direction s. @param
-/// torque coefficient k of u. @returns coefficient k of u − ΣFi − cs·ω.
+/// Computes the Taylor coefficients k of functions of the state, and k + 1 of the state except ω.
+/// @param of constants of the law, with acting_attraction() as the attraction. @param direction sign s of the
+/// motion. @param torque coefficient k of the torque u on the rotor. @returns coefficient k of the
+/// accelerating torque u − ΣFi − cs·ω.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number gms_coefficient(const GmsConstants<Number>& of, const GmsSums<Number>& sums,
                                                const Number& direction, GmsSeriesOf<Series>& s, std::size_t k,
@@ -140,15 +148,16 @@ ZEROCOUNT_ALWAYS_INLINE Number gms_coefficient(const GmsConstants<Number>& of, c
   return torque - sticking - s.slipping[k] - of.damping * s.omega[k];
 }
 
-/// Coefficient k of the margin ηi·g(ω) − s·Fi of a sticking element.
+/// Taylor coefficient k of a sticking element's margin to slipping, ηi·g(ω) − s·Fi. @param direction sign s
+/// of the motion.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number margin_coefficient(const GmsStateOf<Number>& state, const Number& direction,
                                                   const GmsSeriesOf<Series>& s, std::size_t k) {
   return state.weight * s.level[k] - direction * (k == 0 ? state.torque : state.stiffness * s.position[k]);
 }
 
-/// Torque Fi of an element after a travel (rad). @param slipping, fading values of GmsSeriesOf::slipping and
-/// fading after that travel.
+/// Torque Fi of an element after a travel of the rotor (rad). @param slipping, fading values of
+/// GmsSeriesOf::slipping and GmsSeriesOf::fading after that travel.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number torque_after(const GmsStateOf<Number>& state, const GmsSums<Number>& sums,
                                             const Number& travel, const Number& slipping,

@@ -11,12 +11,14 @@ namespace {
 
 constexpr double slow = 0.1;  // max α over the rates at which the rotor's own motion decays
 
-/// Number of rounds of the iteration. Each one reduces the error to less than about 1e-2 of it, because the
-/// other terms are small beside the leading ones, c·p in S and α·p in dp/dt.
+/// Number of rounds of the iteration for the coefficients of CreepAtRest. Each round reduces the error to
+/// about 1e-2 of it or less, because the other terms are small beside the leading ones, c·p in S and α·p in
+/// dp/dt.
 constexpr int rounds = 10;
 constexpr int rounds_of_error = 3;  // two digits are enough
 
-/// Solves p₀ = α·(S(p₀)ⁿ/λ − xh) by Newton's iteration, starting with S = U.
+/// The rate of creep p₀ that belongs to the hardening xh: solves p₀ = α·(S(p₀)ⁿ/λ − xh) by Newton's
+/// iteration, starting with S = U.
 double rate_at_hardening(const CreepAtRest& rest, const FrictionParameters& contact, double hardening) {
   double rate = (hardening_limit(contact, rest.balance) - hardening) * rest.g1;
   for (int iteration = 0; iteration < 3; ++iteration) {

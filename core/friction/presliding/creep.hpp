@@ -11,40 +11,44 @@
 
 namespace zerocount::friction {
 
-/// The plastic module (paper, eq. 2): creep with work hardening,
+/// State of creep with work hardening, the plastic module of the contact (paper, eq. 2):
 ///
 ///   dxh/dt = α·max(|σ|ⁿ/λ − xh, 0),   dxp/dt = sgn(σ)·dxh/dt.
 struct CreepState {
-  double extension{0.0};  ///< xp, rad
-  double hardening{0.0};  ///< xh, rad
+  double extension{0.0};  ///< Plastic extension xp by creep, rad
+  double hardening{0.0};  ///< Hardening xh, rad
 };
 
-/// |σ|ⁿ, (N m)ⁿ. The usual n = 2 needs no pow().
+/// The power |σ|ⁿ (unit (N m)ⁿ) of the spring torque in the creep law; n is an exponent of `friction`. The
+/// usual n = 2 needs no pow(). @param torque σ, N m.
 inline double torque_power(const FrictionParameters& friction, double torque) {
   return friction.n == 2.0 ? torque * torque : numerics::pow(std::abs(torque), friction.n);
 }
 
-/// |σ|ⁿ/λ: the hardening (rad) at which creep under the torque σ (N m) ends.
+/// The hardening |σ|ⁿ/λ (rad) at which creep under the constant spring torque σ (N m) ends. @param torque σ.
 inline double hardening_limit(const FrictionParameters& friction, double torque) {
   return torque_power(friction, torque) / friction.lambda;
 }
 
-/// The |σ| (N m) whose hardening limit is `hardening` (rad).
+/// The absolute spring torque |σ| (N m) under which creep ends at the hardening `hardening` (rad). Inverse of
+/// hardening_limit().
 inline double torque_of_limit(const FrictionParameters& friction, double hardening) {
   const double power = friction.lambda * hardening;
   return friction.n == 2.0 ? std::sqrt(power) : numerics::pow(power, 1.0 / friction.n);
 }
 
-/// The |σ| (N m) beyond which creep goes on in a contact hardened to `hardening` (rad); infinite where α is
-/// 0. Never below 1e-14 of the breakaway torque, because the sign of a smaller σ is a matter of rounding.
+/// The absolute spring torque |σ| (N m) above which a contact hardened to `hardening` (rad) creeps; infinite
+/// if α is 0. Never below 1e-14 of the breakaway torque, because the sign of a smaller σ is a matter of
+/// rounding.
 inline double creep_onset_torque(const FrictionParameters& friction, double hardening) {
   if (friction.alpha == 0.0) return std::numeric_limits<double>::infinity();
   return std::max(torque_of_limit(friction, hardening), 1e-14 * friction.breakaway);
 }
 
-/// The |σ| (N m) at which creep that has ended sets in again. It lies beyond the limit of `hardening` (rad),
-/// and beyond the present σ = `torque` at `elongation` (rad) by its rounding error. Without the second
-/// condition, creep would set in again at once if σ changes by less than its rounding error per step.
+/// The absolute spring torque |σ| (N m) at which creep that has just ended sets in again. It lies beyond the
+/// limit that belongs to `hardening` (rad), and beyond the present σ = `torque` at `elongation` (rad) by its
+/// rounding error. Without the second condition, creep would set in again at once if σ changes by less than
+/// its rounding error per step.
 inline double creep_onset_after_end(const FrictionParameters& friction, double hardening, double torque,
                                     double elongation) {
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
@@ -52,7 +56,8 @@ inline double creep_onset_after_end(const FrictionParameters& friction, double h
   return std::max(creep_onset_torque(friction, hardening), std::abs(torque) + rounding);
 }
 
-/// The exact state after `duration` (s) at the constant torque σ (N m): xh relaxes to its limit as exp(−αt).
+/// The exact state of creep after `duration` (s) at the constant spring torque σ = `torque` (N m): the
+/// hardening xh relaxes to its limit as exp(−αt).
 inline CreepState creep_at_constant_torque(const FrictionParameters& friction, CreepState start,
                                            double torque, double duration) {
   const double remaining = hardening_limit(friction, torque) - start.hardening;
@@ -78,48 +83,50 @@ inline CreepState creep_at_constant_torque(const FrictionParameters& friction, C
 ///
 /// Without creep all coefficients are zero, and S = U.
 struct CreepAtRest {
-  double balance{0.0};  ///< U, N m
-  double sign{1.0};     ///< s
-  double g1{0.0};       ///< 1/s
-  double g2{0.0};       ///< 1/rad
-  double s1{0.0};       ///< N m s/rad
-  double s2{0.0};       ///< N m s²/rad²
-  double w1{0.0};       ///< dimensionless
-  double w2{0.0};       ///< s/rad
+  double balance{0.0};  ///< Spring torque that balances the motor's torque, U = s·u, N m
+  double sign{1.0};     ///< Sign s of the spring torque
+  double g1{0.0};       ///< Linear coefficient g1 of dp/dt = −(g1·p + g2·p²), 1/s
+  double g2{0.0};       ///< Quadratic coefficient g2 of dp/dt, 1/rad
+  double s1{0.0};       ///< Linear coefficient s1 of the spring torque S = U − s1·p − s2·p², N m s/rad
+  double s2{0.0};       ///< Quadratic coefficient s2 of the spring torque S, N m s²/rad²
+  double w1{0.0};       ///< Linear coefficient w1 of the velocity w = w1·p + w2·p², dimensionless
+  double w2{0.0};       ///< Quadratic coefficient w2 of the velocity w, s/rad
   double rate{0.0};     ///< Rate of creep p₀ at t = 0, rad/s
 };
 
-/// Creep at rest with `sign`·torque > 0. Empty if creep is too fast: α must be below a tenth of the rates at
-/// which the motion of the rotor decays, c/2J and k/c.
-/// @param torque u, N m. @param sign s. @param stiffness k, N m/rad. @param hardening xh at t = 0, rad, with
-/// |u|ⁿ/λ beyond it.
+/// Computes quasi-static creep at rest under the torque u, with s·u > 0. Empty if creep is too fast: α must
+/// be below a tenth of the rates at which the motion of the rotor decays, c/2J and k/c.
+/// @param torque u, N m. @param sign s, the sign of the spring torque. @param stiffness tangent stiffness k
+/// of the spring, N m/rad. @param hardening xh at t = 0, rad, below the limit |u|ⁿ/λ.
 std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
                                          const FrictionParameters& contact, double torque, double sign,
                                          double stiffness, double hardening);
 
-/// Error bound of θ (rad): twice the contributions of p³, the first neglected power, and of the change of the
-/// tangent stiffness from k to `last_stiffness` (N m/rad, at most k) while S goes to U.
+/// Upper bound of the error of θ (rad) under quasi-static creep: twice the contributions of p³, the first
+/// neglected power, and of the change of the tangent stiffness from k to `last_stiffness` (N m/rad, at most
+/// k) while the spring torque S goes to U.
 double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParameters& plant,
                               const FrictionParameters& contact, double stiffness, double last_stiffness);
 
-/// Rate of creep p (rad/s) after the time t (s).
+/// Rate of creep p = dxh/dt (rad/s) at the time t (s) after the start of the rest.
 double creep_rate_after(const CreepAtRest& rest, double t);
 
-/// ∫p dt (rad), the growth of xh and |xp| until the rate has fallen to `rate` (rad/s).
+/// Growth ∫p dt (rad) of xh and |xp| until the rate of creep has fallen to `rate` (rad/s).
 double creep_until_rate(const CreepAtRest& rest, double rate);
 
-/// The rate (rad/s) at which ∫p dt has become `growth` (rad): 0 or less where it never does.
+/// The rate of creep (rad/s) at which ∫p dt, the growth of xh and |xp|, has become `growth` (rad): 0 or less
+/// if it never becomes as large.
 double rate_after_creep(const CreepAtRest& rest, double growth);
 
-/// The time (s) until the rate has fallen to `rate` (rad/s, positive).
+/// The time (s) until the rate of creep has fallen to `rate` (rad/s, positive).
 double time_until_rate(const CreepAtRest& rest, double rate);
 
-/// Spring torque S (N m) at the rate of creep p (rad/s).
+/// Absolute spring torque S (N m) at the rate of creep p = `rate` (rad/s).
 inline double spring_torque_at_rate(const CreepAtRest& rest, double rate) {
   return rest.balance - rate * (rest.s1 + rate * rest.s2);
 }
 
-/// Velocity w (rad/s) at the rate of creep p (rad/s).
+/// Velocity w = s·ω of the rotor in the direction of creep (rad/s) at the rate of creep p = `rate` (rad/s).
 inline double velocity_at_rate(const CreepAtRest& rest, double rate) {
   return rate * (rest.w1 + rate * rest.w2);
 }

@@ -11,9 +11,9 @@
 namespace zerocount::friction {
 namespace {
 
-/// Fraction of the breakaway torque below which the sign of σ is a matter of rounding. A new contact with
-/// such a σ starts at the origin of the virgin curve, because the side on which it starts decides whether a
-/// reversal there is remembered.
+/// Fraction of the breakaway torque below which the sign of the spring torque σ is a matter of rounding. A
+/// new contact with such a σ starts at the origin of the virgin curve, because the side on which it starts
+/// decides whether a reversal there is remembered.
 constexpr double torque_without_sign = 1e-14;
 
 }  // namespace
@@ -138,7 +138,8 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
   return next.time;
 }
 
-/// Turns the creep law on or off by its conditions. @returns the rate of creep dxp/dt, rad/s.
+/// Turns the creep law on or off, depending on the hardening and the spring torque. @returns the rate of
+/// creep dxp/dt, rad/s.
 double PreslidingFriction::switch_creep() {
   if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
   const double rate = creep_rate();
@@ -167,7 +168,7 @@ bool PreslidingFriction::at_rest(const Elongation& elongation) const {
          std::abs(elongation.acceleration) < tolerance_.elongation * stiffness_per_inertia;
 }
 
-/// The time (s) for which a varying torque leaves the elongation at rest.
+/// The time (s), at most `duration`, for which a varying torque leaves the elongation of the spring at rest.
 double PreslidingFriction::time_at_rest(const Elongation& elongation, const motion::TorqueCourse& torque,
                                         double duration) const {
   // At least the rounding error of the torque, so that the torque changes before the rest ends.
@@ -179,7 +180,7 @@ double PreslidingFriction::time_at_rest(const Elongation& elongation, const moti
   return std::min(duration, motion::time_until(torque, torque.now + plant_.inertia * missing));
 }
 
-/// The direction in which the hook breaks away now, or 0 if it holds.
+/// The direction (−1 or 1) in which the contact breaks away now under the torque (N m), or 0 if it holds.
 int PreslidingFriction::breakaway_direction(double torque) const {
   const double hook_torque = spring_.torque() + plant_.presliding_damping * omega_;
   const double motion = omega_ != 0.0 ? omega_ : torque - spring_.torque();

@@ -12,18 +12,19 @@
 
 namespace zerocount::friction {
 
-/// State of the pre-sliding model and its rotor, without the reversal points of the spring.
+/// State of motion of the rotor and its pre-sliding contact, without the reversal points of the spring.
 struct PlantMotion {
-  double elongation{0.0};  ///< xs, rad
-  double omega{0.0};       ///< ω, rad/s
+  double elongation{0.0};  ///< Elongation xs of the contact's spring, rad
+  double omega{0.0};       ///< Velocity ω of the rotor, rad/s
   CreepState creep{};
-  bool creeping{false};            ///< The creep law is on
-  double creep_onset_torque{0.0};  ///< |σ| at which creep sets in while it is off, N m
-  double hook{0.0};                ///< Position of the hook, rad
+  bool creeping{false};            ///< Whether the contact creeps
+  double creep_onset_torque{0.0};  ///< Absolute spring torque |σ| at which creep sets in while it is off, N m
+  double hook{0.0};  ///< Position of the hook, the end of the friction spring that sticks to the ground, rad
   bool sliding{false};
-  double slide_theta{0.0};              ///< θ, rad
-  double slide_direction{0.0};          ///< −1, 1
-  double breakaway_spring_torque{0.0};  ///< σb, N m
+  double slide_theta{0.0};      ///< Rotor angle θ while the contact slides, rad
+  double slide_direction{0.0};  ///< Direction in which the contact slides, −1 or 1
+  double breakaway_spring_torque{
+      0.0};  ///< Torque σb of the contact's spring when the present slide began, N m
 };
 
 /// The model of the paper: pre-sliding motion while the hook sticks (Sticking; paper, eq. 4, with creep), and
@@ -79,76 +80,82 @@ class PreslidingFriction {
 
   // For an engine that integrates the motion itself and uses this class for rare events.
   PlantMotion motion() const;
-  /// Sets the state of motion. The spring must be on the same branch.
+  /// Sets the state of motion. The spring of `motion` must be on the same hysteresis branch as the present
+  /// spring.
   void set_motion(const PlantMotion& motion);
-  /// The hook starts to slide in `direction` (−1, 1).
+  /// The contact breaks away: starts a slide in `direction` (−1 or 1).
   void break_away(double direction);
-  /// The hook sticks again; the slide has come to ω = 0.
+  /// Ends a slide, whose velocity has come to ω = 0: the end of the friction spring sticks again, in a new
+  /// contact.
   void re_stick();
-  /// State of rest under a constant torque.
+  /// State of rest of the rotor under a constant torque: creep, and a small residual oscillation.
   struct Rest {
-    double torque;                    ///< u, N m
-    CreepAtRest creep;                ///< Motion by creep since the rest began
-    CreepState start;                 ///< State of creep when the rest began
-    ResidualOscillation oscillation;  ///< Oscillation about the motion by creep
+    double torque;                    ///< Constant torque u on the rotor, N m
+    CreepAtRest creep;                ///< Quasi-static creep since the rest began
+    CreepState start;                 ///< State of creep (extension and hardening) when the rest began
+    ResidualOscillation oscillation;  ///< Small decaying oscillation about the quasi-static creep
     double time;                      ///< Time since the rest began, s
   };
 
-  /// Applies the rest rule under the constant torque `torque` (N m). If it returns true, step() with that
-  /// torque takes the whole duration at once.
-  /// @param at_reversal whether dxs/dt is exactly zero. @param load the second mass; null without one
+  /// Applies the rest rule under the constant torque `torque` (N m). @returns whether the rotor is at rest.
+  /// Then step() with that torque advances over any duration at once.
+  /// @param at_reversal whether the elongation rate dxs/dt is exactly zero. @param load the second mass; null
+  /// without one
   bool come_to_rest(double torque, bool at_reversal, motion::Load* load = nullptr);
-  /// Empty while the rotor is not at rest.
+  /// The present state of rest; empty while the rotor is not at rest.
   const std::optional<Rest>& rest() const { return rest_; }
-  /// The motion at rest at a later time.
+  /// State of the creep at a later time while the rotor is at rest.
   struct RestPoint {
     double time;    ///< Time since the rest began, s
-    double rate;    ///< Rate of creep, rad/s; 0 without creep
-    double growth;  ///< Growth of creep since the rest began, rad
+    double rate;    ///< Rate of creep dxh/dt, rad/s; 0 without creep
+    double growth;  ///< Growth of the hardening, and of |plastic extension|, by creep since the rest began,
+                    ///< rad
     ResidualOscillation::State oscillation;
   };
-  /// The motion after another `time` (s) at rest. Call at rest only.
+  /// State of the creep after another `time` (s) at rest. Call only while the rotor is at rest.
   RestPoint point_at_rest(double time) const;
-  /// Angle θ (rad) at a point at rest. Call at rest only.
+  /// Rotor angle θ (rad) at a point in time at rest. Call only while the rotor is at rest.
   double theta_at(const RestPoint& point) const;
-  /// Advances the rotor at rest to a point. Call at rest only.
+  /// Advances the rotor at rest to a point in time at rest. Call only while the rotor is at rest.
   void go_to(const RestPoint& point);
-  /// The present deviation from quasi-static creep; zero except at rest.
+  /// The present deviation of the motion from quasi-static creep; zero except at rest.
   const ResidualOscillation::State& oscillation() const { return oscillation_; }
-  /// The spring of the contact. At rest, its elongation is that of quasi-static creep, without the residual
-  /// oscillation.
+  /// The hysteretic spring of the contact. At rest, its elongation is that of quasi-static creep, without the
+  /// residual oscillation.
   HystereticSpring& spring() { return spring_; }
 
   /// Angle θ of the rotor, rad.
   double theta() const { return sliding_ ? slide_theta_ : hook_ + elongation() + creep_.extension; }
   /// Velocity ω of the rotor, rad/s.
   double omega() const { return omega_; }
-  /// State of creep in the present contact, or in the last one while the hook slides.
+  /// State of creep (plastic extension and hardening) in the present contact or, while the hook slides, in
+  /// the last one.
   const CreepState& creep() const { return creep_; }
   const HystereticSpring& spring() const { return spring_; }
   const FrictionParameters& contact() const { return contact_; }
   bool sliding() const { return sliding_; }
 
-  /// Number of breakaways since the start.
+  /// Number of times since the start that the contact has broken away into a slide.
   std::int64_t breakaways() const { return breakaways_; }
-  /// Largest stack depth since the last forget_deepest().
+  /// Largest number of reversal points on the spring's stack since the last forget_deepest().
   std::int64_t deepest() const { return deepest_; }
   void forget_deepest() { deepest_ = depth(); }
   std::int64_t depth() const { return static_cast<std::int64_t>(spring_.depth()); }
 
  private:
-  /// Motion of the spring: dxs/dt (rad/s), and d²xs/dt² (rad/s²; exact where dxs/dt is zero).
+  /// Motion of the contact's spring: its elongation rate dxs/dt (rad/s), and d²xs/dt² (rad/s²; exact where
+  /// dxs/dt is zero).
   struct Elongation {
     double rate;
     double acceleration;
   };
 
-  /// Deviation of the motion from quasi-static creep.
+  /// Deviation of the rotor's motion from quasi-static creep under the present torque.
   struct Excess {
-    CreepAtRest creep;  ///< Quasi-static creep under the same torque
-    double torque;      ///< δσ, N m
-    double velocity;    ///< δω, rad/s
-    double amplitude;   ///< A, rad
+    CreepAtRest creep;  ///< The quasi-static creep under the present torque
+    double torque;      ///< Deviation δσ of the spring torque, N m
+    double velocity;    ///< Deviation δω of the velocity, rad/s
+    double amplitude;   ///< Amplitude A of the oscillation about quasi-static creep, rad
   };
 
   // Each returns the time used, at most `duration`.
@@ -204,7 +211,7 @@ class PreslidingFriction {
   std::int64_t deepest_{0};
 };
 
-/// PreslidingFriction without creep: α is 0 in every contact.
+/// PreslidingFriction without creep: the rate α of creep is 0 in every contact.
 class SpringFriction : public PreslidingFriction {
  public:
   using PreslidingFriction::PreslidingFriction;

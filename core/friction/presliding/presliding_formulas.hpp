@@ -13,21 +13,23 @@ namespace zerocount::friction {
 /// @tparam Number double, or a vector of the batch engine.
 template <class Number>
 struct SpringBranchOf {
-  Number elongation{0.0};        ///< xr, where the branch starts, rad
-  Number torque{0.0};            ///< σr, N m
-  Number sign{1.0};              ///< s, the side of xr on which the branch lies
-  Number k1{0.0};                ///< N m/rad
-  Number softening_torque{0.0};  ///< N m
-  Number softening_rate{0.0};    ///< 1/rad
+  Number elongation{0.0};        ///< Elongation xr at which the branch starts, rad
+  Number torque{0.0};            ///< Spring torque σr at which the branch starts, N m
+  Number sign{1.0};              ///< Side s of xr on which the branch lies: −1 or 1
+  Number k1{0.0};                ///< Final (lowest) tangent stiffness, N m/rad
+  Number softening_torque{0.0};  ///< Torque by which the branch exceeds the line of slope k1 after a long
+                                 ///< travel, N m
+  Number softening_rate{0.0};    ///< Rate at which the branch softens to the stiffness k1, 1/rad
 };
 
-/// Travel |x − xr| on the branch at the elongation x (rad).
+/// Travel |x − xr| along the hysteresis branch from its start to the elongation x (rad).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number travel_on(const SpringBranchOf<Number>& branch, const Number& x) {
   return branch.sign * (x - branch.elongation);
 }
 
-/// Torque σ (N m) after the travel |x − xr| (rad). @param softened 1 − exp(−softening_rate·|x − xr|).
+/// Spring torque σ (N m) on a hysteresis branch after the travel |x − xr| (rad). @param softened 1 −
+/// exp(−softening_rate·|x − xr|).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number torque_after(const SpringBranchOf<Number>& branch, const Number& travel,
                                             const Number& softened) {
@@ -38,24 +40,25 @@ ZEROCOUNT_ALWAYS_INLINE Number torque_after(const SpringBranchOf<Number>& branch
 
 template <class Number>
 struct OscillationConstants {
-  Number cosine{0.0};     ///< q₀, rad
-  Number sine{0.0};       ///< (q₀′ + γq₀)/ν, rad
-  Number decay{0.0};      ///< γ, 1/s
-  Number frequency{0.0};  ///< ν, rad/s
-  Number creep{0.0};      ///< ξ, 1/s
-  Number loss{0.0};       ///< η·a₀, 1/s
-  Number slowing{0.0};    ///< κ·a₀
+  Number cosine{0.0};     ///< Amplitude of the cosine: initial elongation q₀, rad
+  Number sine{0.0};       ///< Amplitude of the sine: (q₀′ + γq₀)/ν, rad
+  Number decay{0.0};      ///< Decay rate γ, 1/s
+  Number frequency{0.0};  ///< Angular frequency ν, rad/s
+  Number creep{0.0};      ///< Rate ξ of creep per elongation, 1/s
+  Number loss{0.0};       ///< Loss by hysteresis at the initial amplitude: η·a₀, 1/s
+  Number slowing{0.0};    ///< Reduction of the frequency by softening at the initial amplitude: κ·a₀,
+                          ///< dimensionless
 };
 
 template <class Number>
 struct OscillationPhase {
-  Number amplitude;  ///< a/a₀
-  Number phase;      ///< φ, rad
+  Number amplitude;  ///< Amplitude divided by the initial amplitude, a/a₀
+  Number phase;      ///< Phase φ of the oscillation, rad
 };
 
-/// Amplitude and phase of the residual oscillation at the time t. With x = η·a₀·(1 − exp(−γt))/γ, a/a₀ =
-/// exp(−γt)/(1 + x) and ∫a/a₀ dt = log(1 + x)/(η·a₀).
-/// @param decayed 1 − exp(−γt). @param t s
+/// Amplitude and phase of the residual oscillation (see ResidualOscillation) at the time t. With x = η·a₀·(1
+/// − exp(−γt))/γ, a/a₀ = exp(−γt)/(1 + x) and ∫a/a₀ dt = log(1 + x)/(η·a₀).
+/// @param decayed 1 − exp(−γt). @param t time since the oscillation began, s
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE OscillationPhase<Number> oscillation_phase(const OscillationConstants<Number>& of,
                                                                    const Number& decayed, const Number& t) {
@@ -67,13 +70,13 @@ ZEROCOUNT_ALWAYS_INLINE OscillationPhase<Number> oscillation_phase(const Oscilla
 
 template <class Number>
 struct OscillationState {
-  Number elongation;  ///< q, rad
-  Number extension;   ///< e, rad
-  Number velocity;    ///< v, rad/s
+  Number elongation;  ///< Deviation q of the spring's elongation from its final value, rad
+  Number extension;   ///< Deviation e of the plastic extension from its final value, rad
+  Number velocity;    ///< Velocity v of the rotor, rad/s
 };
 
-/// State of the residual oscillation.
-/// @param amplitude a/a₀. @param s sin φ. @param c cos φ.
+/// State of the residual oscillation (see ResidualOscillation) with a given amplitude and phase.
+/// @param amplitude a/a₀, the amplitude divided by the initial one. @param s sin φ. @param c cos φ.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE OscillationState<Number> oscillation_state(const OscillationConstants<Number>& of,
                                                                    const Number& amplitude, const Number& s,

@@ -16,7 +16,8 @@ bool PreslidingFriction::come_to_rest(double torque, bool at_reversal, motion::L
   return begin_rest(torque, elongation_under(torque_now, creep_rate_now), was_at_rest, load == nullptr);
 }
 
-/// Whether the rotor may rest as far as the load is concerned: there is no load, or it is quiet.
+/// Whether a second mass permits that the rotor rests: there is none, or its oscillation is small enough to
+/// be neglected.
 bool PreslidingFriction::load_is_quiet(const motion::TorqueCourse& torque, double creep_rate_now) const {
   return motion::load_is_quiet(torque, omega_, plant_.inertia, 0.5 * contact_.k1 * tolerance_.rest,
                                -contact_.alpha * creep_rate_now);
@@ -66,13 +67,14 @@ bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation,
   return true;
 }
 
-/// State of creep without the contribution of the residual oscillation.
+/// State of creep (extension and hardening) without the contribution of the residual oscillation. @param sign
+/// sign of the spring torque.
 CreepState PreslidingFriction::slow_creep(double sign) const {
   return {creep_.extension - oscillation_.extension, creep_.hardening - sign * oscillation_.extension};
 }
 
-/// Deviation of the motion from quasi-static creep. Empty if the amplitude is above `max_amplitude` (rad), or
-/// if creep is as fast as the oscillation.
+/// Deviation of the motion from quasi-static creep under the torque (N m). Empty if the amplitude is above
+/// `max_amplitude` (rad), or if creep is as fast as the oscillation.
 std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(double torque,
                                                                                const Elongation& elongation,
                                                                                double max_amplitude) const {
@@ -113,9 +115,9 @@ std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(d
   return Excess{creep, torque_excess, velocity_excess, std::sqrt(energy) / per_time_squared};
 }
 
-/// Moves the spring to the torque at rest. A deviation within rounding is kept, because the rotor may stand
-/// on the edge of a count. The end of an oscillation leaves no reversal point; a change of the torque on a
-/// rotor at rest leaves one, however small, because a slow ramp consists of such changes.
+/// Moves the spring to the torque at which it rests. A deviation within rounding is kept, because the rotor
+/// may stand on the edge of a count. The end of an oscillation leaves no reversal point. A change of the
+/// torque on a rotor at rest leaves one, however small, because a slow ramp consists of such changes.
 void PreslidingFriction::settle(const Excess& excess, bool was_at_rest) {
   if (!(std::abs(excess.torque) > tolerance_.elongation * (contact_.k1 + contact_.k2))) return;
   const double torque = excess.creep.sign * spring_torque_at_rate(excess.creep, excess.creep.rate);
@@ -126,8 +128,8 @@ void PreslidingFriction::settle(const Excess& excess, bool was_at_rest) {
   }
 }
 
-/// Whether ResidualOscillation describes the remaining motion: no breakaway, no closed loop, and no start or
-/// end of creep within twice the amplitude. Called at a reversal only.
+/// Whether a ResidualOscillation describes the remaining motion: no breakaway, no closed loop of the spring,
+/// and no start or end of creep lies within twice the amplitude. Called at a reversal only.
 bool PreslidingFriction::oscillates_freely(double torque, const Excess& excess) const {
   const double margin = 2.0 * excess.amplitude;
   const double torque_margin = margin * (contact_.k1 + contact_.k2);
@@ -168,7 +170,8 @@ OscillationLaw PreslidingFriction::oscillation_law(const Excess& excess) const {
   return law;
 }
 
-/// Makes the present elongation a reversal point, and moves the spring to the end of the oscillation.
+/// Makes the present elongation a reversal point of the spring, and moves the spring to the end of the
+/// oscillation. @returns the residual oscillation that begins here.
 ResidualOscillation PreslidingFriction::begin_oscillation(const Excess& excess) {
   const CreepAtRest& creep = excess.creep;
   const double from = spring_.elongation();
@@ -178,7 +181,8 @@ ResidualOscillation PreslidingFriction::begin_oscillation(const Excess& excess) 
                               tolerance_.elongation);
 }
 
-/// The motion by creep alone; empty if its error exceeds a tenth of the amplitude of the rest rule.
+/// The slow motion by creep alone, under the torque (N m); empty if its error exceeds a tenth of the
+/// amplitude that counts as rest.
 std::optional<CreepAtRest> PreslidingFriction::slow_motion(double torque, double sign) const {
   const bool onwards = spring_.direction() == static_cast<int>(sign);
   const double stiffness =

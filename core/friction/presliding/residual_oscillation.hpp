@@ -25,22 +25,23 @@ namespace zerocount::friction {
 ///
 /// The truncation error is of the order β·a² and does not grow with the number of periods.
 struct ResidualOscillation : OscillationConstants<double> {
-  double end{0.0};        ///< Time from which q counts as 0, s
-  double amplitude{0.0};  ///< a₀, rad
+  double end{0.0};        ///< Time from which the oscillation counts as ended, q = 0, s
+  double amplitude{0.0};  ///< Initial amplitude a₀, rad
 
   using State = OscillationState<double>;
 };
 
-/// Coefficients of an underdamped oscillation: 0 < γ² < ω².
+/// Coefficients of the residual oscillation of a rotor at rest, which must be underdamped: 0 < γ² < ω².
 struct OscillationLaw {
-  double decay;      ///< γ, 1/s
-  double frequency;  ///< ν, rad/s
-  double creep;      ///< ξ, 1/s
-  double softening;  ///< k2·β/k, 1/rad
+  double decay;      ///< Decay rate γ, 1/s
+  double frequency;  ///< Angular frequency ν, rad/s
+  double creep;      ///< Rate ξ of creep per elongation, 1/s
+  double softening;  ///< Relative loss of stiffness per amplitude, k2·β/k, 1/rad
 };
 
-/// The oscillation with elongation q₀ (rad) and velocity v₀ (rad/s) at t = 0.
-/// @param min_amplitude amplitude (rad) below which the oscillation has ended.
+/// Creates the residual oscillation that starts at t = 0 with the elongation q₀ (rad) and the velocity v₀
+/// (rad/s).
+/// @param min_amplitude amplitude (rad) below which the oscillation counts as ended.
 inline ResidualOscillation residual_oscillation(const OscillationLaw& law, double elongation, double velocity,
                                                 double min_amplitude) {
   const double rate = velocity - law.creep * elongation;
@@ -55,7 +56,8 @@ inline ResidualOscillation residual_oscillation(const OscillationLaw& law, doubl
   return oscillation;
 }
 
-/// Upper bound of |q + e| (rad) at the time t (s) and later.
+/// Upper bound of |q + e| (rad), the deviation of the rotor from quasi-static creep, at the time t (s) and
+/// later.
 inline double oscillation_bound(const ResidualOscillation& oscillation, double t) {
   if (!(t < oscillation.end)) return 0.0;
   const double of_creep = 1.0 + 4.0 * oscillation.creep / oscillation.frequency;

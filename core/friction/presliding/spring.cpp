@@ -11,12 +11,13 @@ namespace zerocount::friction {
 
 namespace {
 
-/// Softening term 1 − exp(−y) of the branch law.
+/// Softening term 1 − exp(−y) of the hysteresis branch law.
 double softened(double y) {
   return -numerics::expm1_of_draws(-y);
 }
 
-/// The y at which the condition begins to hold, to the last bit. @param low, high ends between which y lies.
+/// The smallest y for which the condition holds, to the last bit, by bisection. @param low, high ends between
+/// which y lies; the condition is false at `low` and true at `high`.
 template <class Condition>
 double least_that(double low, double high, const Condition& holds) {
   return numerics::bisect(
@@ -72,10 +73,11 @@ SpringBranch virgin_branch(const FrictionParameters& friction, double sign) {
   return {0.0, 0.0, sign, friction.k1, friction.k2 / (2.0 * friction.beta), 2.0 * friction.beta};
 }
 
-/// u ≥ 0 with k1·u + softening_torque·(1 − exp(−softening_rate·u)) = torque ≥ 0. The law is increasing and
-/// concave, so Newton's iteration from below rises to the root without passing it; it ends when it no longer
-/// rises. It starts at the root for the constant stiffness of the start, or of the end, of the law, or at
-/// `at_least`: itself if it is above the root.
+/// The travel u ≥ 0 (rad) along a branch that gives the torque gain `torque` ≥ 0 (N m): k1·u +
+/// softening_torque·(1 − exp(−softening_rate·u)) = torque. The law is increasing and concave, so Newton's
+/// iteration from below rises to the root without passing it; it ends when it no longer rises. It starts at
+/// the root for the constant stiffness of the start, or of the end, of the law, or at `at_least`: itself if
+/// it is above the root.
 double travel_at(const SpringBranch& branch, double torque,
                  double at_least = -std::numeric_limits<double>::infinity()) {
   const double stiffest = branch.k1 + branch.softening_torque * branch.softening_rate;
@@ -185,13 +187,13 @@ HystereticSpring::PointOnBranch HystereticSpring::point_at_torque(double torque)
   return {x, stiffness_on(branch, x)};
 }
 
-/// The travel (rad) on a branch up to the present elongation, if moving in `direction` lengthens it;
-/// otherwise none, below all travels.
+/// The travel (rad) along a branch up to the present elongation, if motion in `direction` lengthens it;
+/// otherwise minus infinity.
 double HystereticSpring::travel_ahead(const SpringBranch& branch, int direction) const {
   return branch.sign == direction ? travel_on(branch, elongation_) : -std::numeric_limits<double>::infinity();
 }
 
-/// Torque σ at branch_end(), N m.
+/// Spring torque σ at the end of the present hysteresis branch, branch_end(), N m.
 double HystereticSpring::branch_end_torque() const {
   if (stack_.size() >= 2) return stack_[stack_.size() - 2].torque;
   return stack_.empty() ? 0.0 : -stack_.front().torque;

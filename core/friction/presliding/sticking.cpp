@@ -8,13 +8,13 @@
 namespace zerocount::friction {
 namespace {
 
-/// The series minus a constant.
+/// A power series minus a constant.
 numerics::Series less(numerics::Series series, double constant) {
   series[0] -= constant;
   return series;
 }
 
-/// A constant minus `factor` times the series.
+/// A constant minus `factor` times a power series.
 numerics::Series scaled_difference(double constant, double factor, numerics::Series series) {
   for (double& coefficient : series) coefficient *= -factor;
   series[0] += constant;
@@ -50,7 +50,8 @@ motion::NextEvent<Sticking::Event> Sticking::first_event(const StickingSeries& s
   return next;
 }
 
-/// The loop closure ahead. The elongation is monotonic up to `next.time`, where the next reversal would be.
+/// Replaces `next` by the closure of the spring's minor loop if that comes earlier. The elongation is
+/// monotonic up to `next.time`, where the next reversal would be.
 void Sticking::find_closure(const StickingSeries& series, motion::NextEvent<Event>& next) const {
   const std::optional<double> end = spring.branch_end();
   if (!end) return;
@@ -59,7 +60,8 @@ void Sticking::find_closure(const StickingSeries& series, motion::NextEvent<Even
   next.offer(numerics::bracketed_root(distance, 0.0, next.time), Event::closure);
 }
 
-/// The start or end of creep. σ is monotonic up to `next.time`, so it passes the onset at most once.
+/// Replaces `next` by the start or end of creep if that comes earlier. The spring torque σ is monotonic up to
+/// `next.time`, so it passes the onset at most once.
 void Sticking::find_creep_change(const StickingSeries& series, motion::NextEvent<Event>& next) const {
   if (creeping) {
     next.offer(motion::next_sign_change(series.creep_rate, next.time), Event::creep_off);
@@ -71,7 +73,8 @@ void Sticking::find_creep_change(const StickingSeries& series, motion::NextEvent
   next.offer(numerics::bracketed_root(beyond, 0.0, next.time), Event::creep_on);
 }
 
-/// The instant at which |σ + c·ω| reaches the breakaway torque in the direction of motion.
+/// Replaces `next` by the breakaway if that comes earlier: the instant at which the hook's torque |σ + c·ω|
+/// reaches the breakaway torque in the direction of motion.
 void Sticking::find_breakaway(const StickingSeries& series, motion::NextEvent<Event>& next) const {
   numerics::Series hook_torque{};
   for (std::size_t k = 0; k <= numerics::series_order; ++k) {

@@ -7,25 +7,27 @@
 
 namespace zerocount::friction {
 
-/// Taylor series in time of the pre-sliding motion from the present state, on one branch.
+/// Taylor series in time of the pre-sliding motion from the present state, on one hysteresis branch of the
+/// spring.
 struct StickingSeries {
-  numerics::Series position{};         ///< xs, rad
-  numerics::Series elongation_rate{};  ///< dxs/dt, rad/s
-  numerics::Series omega{};            ///< ω, rad/s
-  numerics::Series extension{};        ///< xp, rad
-  numerics::Series hardening{};        ///< xh, rad
-  numerics::Series spring_torque{};    ///< σ, N m
-  numerics::Series creep_rate{};       ///< dxh/dt, rad/s; zero while creep is off
+  numerics::Series position{};         ///< Elongation xs of the spring, rad
+  numerics::Series elongation_rate{};  ///< Elongation rate dxs/dt of the spring, rad/s
+  numerics::Series omega{};            ///< Velocity ω of the rotor, rad/s
+  numerics::Series extension{};        ///< Plastic extension xp by creep, rad
+  numerics::Series hardening{};        ///< Hardening xh by creep, rad
+  numerics::Series spring_torque{};    ///< Spring torque σ, N m
+  numerics::Series creep_rate{};       ///< Rate of creep dxh/dt, rad/s; zero while creep is off
   numerics::Series exponent{};         ///< −y, the exponent of the branch law, dimensionless
-  numerics::Series slope{};            ///< −dy/dt, 1/s
-  numerics::Series softness{};         ///< exp(−y)
-  numerics::Series magnitude{};        ///< |σ|, N m
-  numerics::Series power{};            ///< |σ|ⁿ
-  double torque_sign{1.0};             ///< Sign of σ, which does not change while creep is on
-  double per_lambda{0.0};              ///< 1/λ
+  numerics::Series slope{};            ///< Rate −dy/dt of the branch law's exponent, 1/s
+  numerics::Series softness{};         ///< Exponential exp(−y) of the branch law
+  numerics::Series magnitude{};        ///< Absolute spring torque |σ|, N m
+  numerics::Series power{};            ///< Power |σ|ⁿ of the spring torque in the creep law
+  double torque_sign{1.0};             ///< Sign of the spring torque σ, which does not change while creep is
+                                       ///< on
+  double per_lambda{0.0};              ///< Reciprocal 1/λ of the hardening modulus of creep
 };
 
-/// The motion while the hook holds (paper, eqs. 1, 2 and 4, with creep kept):
+/// The motion of the rotor while the friction contact sticks (paper, eqs. 1, 2 and 4, with creep kept):
 ///
 ///   J·dω/dt = u − c·ω − σ(xs),   dxs/dt = ω − dxp/dt,   dxh/dt = α·(|σ|ⁿ/λ − xh),   dxp/dt = sgn(σ)·dxh/dt.
 ///
@@ -35,21 +37,23 @@ struct Sticking {
   using Expansion = StickingSeries;
   enum class Event {
     none,
-    reversal,      ///< The elongation turns
-    closure,       ///< The present branch ends
-    creep_on,      ///< |σ| reaches the onset of creep
-    creep_off,     ///< The hardening catches up with |σ|ⁿ/λ
-    breakaway,     ///< The hook starts to slide
-    velocity_zero  ///< ω = 0, which may start a slide in a contact already loaded beyond breakaway
+    reversal,      ///< The elongation of the spring reverses its direction
+    closure,       ///< The present hysteresis branch ends, and its minor loop closes
+    creep_on,      ///< Creep starts: the absolute spring torque |σ| reaches its onset
+    creep_off,     ///< Creep ends: the hardening has caught up with |σ|ⁿ/λ
+    breakaway,     ///< The contact's torque reaches the breakaway torque, so that the contact starts to slide
+    velocity_zero  ///< The rotor's velocity comes to ω = 0, which may start a slide in a contact already
+                   ///< loaded beyond breakaway
   };
 
   const FrictionParameters& contact;
-  double damping;  ///< c, N m s/rad
+  double damping;  ///< Damping c between the rotor and the hook, the end of the friction spring that sticks,
+                   ///< N m s/rad
   HystereticSpring& spring;
   CreepState& creep;
-  double& omega;              ///< rad/s
-  bool creeping;              ///< The creep law is on
-  double creep_onset_torque;  ///< |σ| (N m) at which creep starts, while it is off
+  double& omega;              ///< Velocity ω of the rotor, rad/s
+  bool creeping;              ///< Whether the contact creeps
+  double creep_onset_torque;  ///< Absolute spring torque |σ| at which creep starts while it is off, N m
 
   StickingSeries start() const;
   double expand(StickingSeries& s, std::size_t k, double torque) const {
@@ -67,12 +71,14 @@ struct Sticking {
   void go_to(const StickingSeries& series, const motion::NextEvent<Event>& next);
 
  private:
-  /// Coefficient of the branch's exponent −y, given the same coefficient of xs.
+  /// Taylor coefficient of the exponent −y of the hysteresis branch, given the same coefficient of the
+  /// elongation xs.
   double exponent_coefficient(double elongation_coefficient) const {
     return -spring.branch().softening_rate * spring.branch().sign * elongation_coefficient;
   }
 
-  /// Coefficient k ≥ 1 of |σ|ⁿ. The whole exponents 1 and 2 need no division by σ, which may be tiny.
+  /// Taylor coefficient k ≥ 1 of |σ|ⁿ, σ the spring torque. The whole exponents n = 1 and 2 need no division
+  /// by σ, which may be tiny. @param magnitude, power series of |σ| and of |σ|ⁿ.
   static double torque_power_coefficient(const numerics::Series& magnitude, const numerics::Series& power,
                                          double n, std::size_t k) {
     if (n == 1.0) return magnitude[k];

@@ -51,9 +51,10 @@ bool CoulombFriction::torque_drives(double direction, const motion::TorqueCourse
   return leaves_rest({contact_, plant_.sliding_damping, 0.0, 0.0, direction}, plant_.inertia, torque);
 }
 
-/// |u| can pass the breakaway torque at most once, and only towards where it settles, because u is monotonic.
-/// An excess of torque too small to change ω in rounding does not start a slide: otherwise the rotor would
-/// slide and stick without end.
+/// Lets the rotor stand under the torque for at most `duration` (s), and starts a slide when |u| passes the
+/// breakaway torque. It can do so at most once, and only towards the value at which u settles, because u is
+/// monotonic. An excess of torque too small to change ω in rounding does not start a slide: otherwise the
+/// rotor would slide and stick without end. @returns the time used, s.
 double CoulombFriction::stand(const motion::TorqueCourse& torque, double duration) {
   if (motion::is_coupled(torque)) return stand_coupled(torque, duration);
   const double torque_now = motion::torque_on_rotor(torque, 0.0);

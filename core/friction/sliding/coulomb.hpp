@@ -7,17 +7,17 @@
 
 namespace zerocount::friction {
 
-/// State of motion, for an engine that integrates the motion itself.
+/// State of motion of a rotor with Coulomb friction, for an engine that integrates the motion itself.
 struct CoulombMotion {
-  double theta;      ///< rad
-  double omega;      ///< rad/s
+  double theta;      ///< Rotor angle θ, rad
+  double omega;      ///< Rotor velocity ω, rad/s
   double direction;  ///< Direction of the slide, −1 or 1; 0 while the rotor stands
-  bool spent;        ///< StandingContact::spent
+  bool spent;        ///< Whether a slide has just ended where it began (StandingContact::spent)
 };
 
-/// Amonton–Coulomb friction with a static level: θ is constant while |u| ≤ Fs = breakaway. When |u| passes Fs
-/// the rotor slides towards sgn(u), by Slide, until ω = 0; there a new contact forms, with the parameters of
-/// that place.
+/// Amonton–Coulomb friction with a static level. The rotor angle θ is constant while the torque is |u| ≤ Fs =
+/// breakaway. When |u| passes Fs, the rotor slides towards sgn(u), as described at Slide, until ω = 0. There
+/// a new contact forms, with the friction parameters of that place.
 class CoulombFriction : public WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "coulomb";
@@ -34,16 +34,16 @@ class CoulombFriction : public WithoutCreepAndReversals {
     return {sliding_contact(plant)};
   }
 
-  /// Slides at the start wherever velocity ≠ 0.
+  /// Starts the rotor. It slides at the start wherever velocity ≠ 0.
   CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
                   const motion::PlantStart& start, const motion::MotionTolerance& tolerance);
 
   double step(const motion::TorqueCourse& torque, double duration);
 
   CoulombMotion motion() const { return {theta_, omega_, sliding_ ? direction_ : 0.0, spent_}; }
-  /// Goes on from this motion, within the present contact.
+  /// Sets the state of motion, within the present contact.
   void set_motion(const CoulombMotion& motion);
-  /// Ends the slide: a new contact forms at θ.
+  /// Ends the slide: the rotor stands, and a new contact forms at the present angle θ.
   void stand_still();
 
   double theta() const { return theta_; }
@@ -54,7 +54,8 @@ class CoulombFriction : public WithoutCreepAndReversals {
 
  private:
   double stand(const motion::TorqueCourse& torque, double duration);
-  /// Holds the rotor at rest under a load or a varying disturbance. @returns the time used, s.
+  /// Advances a rotor at rest that a second mass or a varying disturbance acts on, by one step of at most
+  /// `duration` (s). @returns the time used, s.
   double stand_coupled(const motion::TorqueCourse& torque, double duration);
   double slide(const motion::TorqueCourse& torque, double duration);
   bool torque_drives(double direction, const motion::TorqueCourse& torque) const;

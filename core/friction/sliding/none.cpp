@@ -27,17 +27,18 @@ FreeMotion free_motion(const motion::PlantParameters& plant, const FreeMotion& s
 namespace {
 
 struct FreeSeries {
-  numerics::Series position{};  ///< θ, rad
-  numerics::Series omega{};     ///< ω, rad/s
-  numerics::Series exponent{};  ///< 0
+  numerics::Series position{};  ///< Rotor angle θ, rad
+  numerics::Series omega{};     ///< Rotor velocity ω, rad/s
+  numerics::Series exponent{};  ///< Exponent of the motion's exponential: 0, because there is none
 };
 
-/// The motion J·dω/dt = u − c·ω, dθ/dt = ω. It has no events.
+/// The motion J·dω/dt = u − c·ω, dθ/dt = ω of a rotor with viscous damping alone, for the Taylor integrator.
+/// It has no events.
 struct DampedRotor {
   using Expansion = FreeSeries;
   enum class Event { none };
 
-  double damping;  ///< c, N m s/rad
+  double damping;  ///< Viscous damping c, N m s/rad
   FreeMotion& motion;
 
   FreeSeries start() const {

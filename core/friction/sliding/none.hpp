@@ -8,10 +8,10 @@
 
 namespace zerocount::friction {
 
-/// State of a rotor without friction.
+/// State of motion of a rotor without friction.
 struct FreeMotion {
-  double theta{0.0};  ///< rad
-  double omega{0.0};  ///< rad/s
+  double theta{0.0};  ///< Rotor angle θ, rad
+  double omega{0.0};  ///< Rotor velocity ω, rad/s
 };
 
 /// The rotor of FrictionModel::none, an air bearing, after the time t (s) from `start` under `torque`:
@@ -59,7 +59,8 @@ class NoFriction : public WithoutCreepAndReversals {
   static std::int64_t breakaways() { return 0; }
 
  private:
-  /// Advances with a load or a varying disturbance d by a Taylor step: J·dω/dt = u + d − Ts − c·ω.
+  /// Advances a rotor on which a second mass or a varying disturbance d acts by one Taylor step: J·dω/dt = u
+  /// + d − Ts − c·ω. @returns the time used, at most `duration`, s.
   double step_coupled(const motion::TorqueCourse& torque, double duration);
 
   motion::PlantParameters plant_;

@@ -4,13 +4,13 @@
 
 #include "core/numerics/series_recurrences.hpp"
 
-/// Formulas of the motion without friction and of a slide (Slide), for double and for the vectors of the
-/// batch engine.
+/// Formulas of the motion without dry friction and of a slide (Slide), as templates for double and for the
+/// vectors of the batch engine.
 namespace zerocount::friction {
 
 // The Stribeck curve and its series along a motion, for double and for the vectors of the batch engine.
 
-/// The level of sliding friction over velocity:
+/// Stribeck curve: the level of sliding friction as a function of the velocity,
 ///
 ///   g(ω) = Fc + (Fs − Fc)·exp(−(ω/ωs)²).
 ///
@@ -18,32 +18,34 @@ namespace zerocount::friction {
 /// exp().
 template <class Number>
 struct StribeckCurveOf {
-  Number coulomb;               ///< Fc, N m
-  Number excess;                ///< Fs − Fc, N m
-  Number per_velocity_squared;  ///< 1/ωs², s²/rad²
+  Number coulomb;               ///< Coulomb torque Fc, N m
+  Number excess;                ///< Breakaway torque minus Coulomb torque, Fs − Fc, N m
+  Number per_velocity_squared;  ///< 1/ωs², with ωs the Stribeck velocity, s²/rad²
 };
 
-/// A motion is fast while |ω| > 8·ωs, where the curve is Fc to the last bit: exp(−64) = 2e-28. A fast step
-/// ends, at the latest, where |ω| falls to 6.5·ωs: exp(−42) = 6e-19.
+/// Velocity, divided by the Stribeck velocity ωs, above which a motion counts as fast. There the Stribeck
+/// curve is Fc to the last bit: exp(−64) = 2e-28. A fast step ends, at the latest, where |ω| falls to 6.5·ωs:
+/// exp(−42) = 6e-19.
 inline constexpr double fast_by_stribeck_velocity = 8.0;
 inline constexpr double slow_by_stribeck_velocity = 6.5;
 
-/// The curve with times in the unit of h (s), so with ω·h in place of ω. Series in time are then series in
-/// the fraction of a step of h.
+/// The Stribeck curve in the time unit h (s), as a function of ω·h. Series in time are then series in the
+/// fraction of a step of length h.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE StribeckCurveOf<Number> in_unit_of_time(const StribeckCurveOf<Number>& curve,
                                                                 const Number& h) {
   return {curve.coulomb, curve.excess, curve.per_velocity_squared / (h * h)};
 }
 
-/// Taylor series of exp(−(ω/ωs)²). @tparam Series an array of the coefficients.
+/// Taylor series in time of exp(−(ω/ωs)²), the exponential of the Stribeck curve. @tparam Series an array of
+/// the coefficients.
 template <class Series>
 struct StribeckSeriesOf {
-  Series exponent;  ///< −(ω/ωs)², dimensionless
+  Series exponent;  ///< Exponent −(ω/ωs)² of the Stribeck curve, dimensionless
   Series slope;     ///< Time derivative of the exponent, 1/s
-  Series decay;     ///< exp(−(ω/ωs)²), dimensionless; decay[0] is given
+  Series decay;  ///< Exponential exp(−(ω/ωs)²) of the Stribeck curve, dimensionless; decay[0] is given
 
-  /// Computes coefficient k from omega[0…k].
+  /// Computes Taylor coefficient k of all members from omega[0…k], the coefficients of the velocity.
   template <class Number>
   ZEROCOUNT_ALWAYS_INLINE void expand(const Number& per_velocity_squared, const Number* omega,
                                       std::size_t k) {
@@ -54,12 +56,12 @@ struct StribeckSeriesOf {
   }
 };
 
-/// Taylor series of exp(−(ω/ωs)²) and of the friction level g(ω).
+/// Taylor series in time of the Stribeck curve: its exponential exp(−(ω/ωs)²) and the friction level g(ω).
 template <class Series>
 struct LevelSeriesOf : StribeckSeriesOf<Series> {
-  Series level;  ///< g(ω), N m
+  Series level;  ///< Friction level g(ω), N m
 
-  /// Computes coefficient k from omega[0…k].
+  /// Computes Taylor coefficient k of all members from omega[0…k], the coefficients of the velocity.
   template <class Number>
   ZEROCOUNT_ALWAYS_INLINE void expand_level(const StribeckCurveOf<Number>& curve, const Number* omega,
                                             std::size_t k) {
@@ -71,19 +73,22 @@ struct LevelSeriesOf : StribeckSeriesOf<Series> {
 
 template <class Number>
 struct SlideConstants {
-  Number damping;                 ///< cs, N m s/rad
-  StribeckCurveOf<Number> curve;  ///< Friction level g, with its torques multiplied by the direction d
+  Number damping;                 ///< Viscous damping cs of the slide, N m s/rad
+  StribeckCurveOf<Number> curve;  ///< Stribeck curve g, with its torques multiplied by the direction d of the
+                                  ///< slide
 };
 
-/// Taylor series of a slide. @tparam Series an array of the coefficients.
+/// Taylor series in time of the motion of a rotor that slides. @tparam Series an array of the coefficients.
 template <class Series>
 struct SlideSeriesOf : StribeckSeriesOf<Series> {
-  Series position;  ///< θ, rad
-  Series omega;     ///< ω, rad/s
+  Series position;  ///< Rotor angle θ, rad
+  Series omega;     ///< Rotor velocity ω, rad/s
 };
 
-/// A motion with viscous damping alone: computes coefficient k + 1 of the position from k of ω.
-/// @param torque coefficient k of u. @returns coefficient k of u − damping·ω.
+/// Computes Taylor coefficients of a motion with viscous damping alone: coefficient k + 1 of the position
+/// from coefficient k of ω.
+/// @param torque coefficient k of the torque u. @returns coefficient k of the accelerating torque u −
+/// damping·ω.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number damped_coefficient(const Number& damping, Series& s, std::size_t k,
                                                   const Number& torque) {
@@ -91,9 +96,10 @@ ZEROCOUNT_ALWAYS_INLINE Number damped_coefficient(const Number& damping, Series&
   return torque - damping * s.omega[k];
 }
 
-/// Computes coefficient k of the curve and k + 1 of the position.
-/// @tparam Fast whether g is Fc to the last bit. @param torque coefficient k of u. @returns coefficient k of
-/// u − cs·ω − d·g(ω).
+/// Computes Taylor coefficients of a slide: coefficient k of the Stribeck curve's exponential, and k + 1 of
+/// the position.
+/// @tparam Fast whether the friction level g is Fc to the last bit. @param torque coefficient k of the torque
+/// u. @returns coefficient k of the accelerating torque u − cs·ω − d·g(ω).
 template <bool Fast, class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number slide_coefficient(const SlideConstants<Number>& of, SlideSeriesOf<Series>& s,
                                                  std::size_t k, const Number& torque) {

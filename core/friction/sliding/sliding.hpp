@@ -17,47 +17,49 @@ inline StribeckCurve stribeck_curve(const FrictionParameters& contact) {
           1.0 / (contact.stribeck_velocity * contact.stribeck_velocity)};
 }
 
-/// Friction level g(ω), N m.
+/// Level of sliding friction g(ω) at the velocity ω = `omega` (rad/s), N m.
 template <class Number>
 Number level_at(const StribeckCurveOf<Number>& curve, Number omega) {
   using numerics::exp;
   return curve.coulomb + curve.excess * exp(-curve.per_velocity_squared * omega * omega);
 }
 
-/// Value of exp(−(ω/ωs)²), coefficient 0 of StribeckSeriesOf::decay.
+/// Value of exp(−(ω/ωs)²) at the velocity ω = `omega` (rad/s), which is coefficient 0 of
+/// StribeckSeriesOf::decay.
 inline double decay_at(const StribeckCurve& curve, double omega) {
   return numerics::exp(-curve.per_velocity_squared * (omega * omega));
 }
 
-/// Torque J·dω/dt = u − cs·ω − d·g(ω) that accelerates a hook which slides in the direction d = ±1, N m.
-/// @param damping cs, N m s/rad. @param curve g, not multiplied by d.
+/// Torque u − cs·ω − d·g(ω) that accelerates a rotor whose friction contact slides in the direction d = ±1, N
+/// m.
+/// @param torque u, N m. @param damping cs, N m s/rad. @param curve Stribeck curve g, not multiplied by d.
 template <class Number>
 Number sliding_torque(const Number& torque, const Number& damping, const StribeckCurveOf<Number>& curve,
                       double direction, const Number& omega) {
   return torque - damping * omega - direction * level_at(curve, omega);
 }
 
-/// Taylor series in time of the sliding motion.
+/// Taylor series in time of the motion of a rotor whose friction contact slides, in double.
 struct SlidingSeries : SlideSeriesOf<numerics::Series> {
   SlideConstants<double> constants;
 };
 
-/// The motion while the hook slides (paper, eq. 3, with Stribeck friction):
+/// The motion of a rotor while its friction contact slides (paper, eq. 3, with Stribeck friction):
 ///
 ///   J·dω/dt = u − cs·ω − d·g(ω),   dθ/dt = ω,
 ///
-/// with g of StribeckCurve: the Taylor coefficients of sliding_torque(). It ends at ω = 0.
+/// with g of StribeckCurve and d the direction of the slide. It ends at ω = 0.
 struct Slide {
   using Expansion = SlidingSeries;
   enum class Event { none, velocity_zero };
 
   const FrictionParameters& contact;
-  double damping;    ///< cs, N m s/rad
-  double theta;      ///< rad
-  double omega;      ///< rad/s
-  double direction;  ///< d, −1 or 1
-  /// The slide starts at ω = 0 because u has just reached d·g(0). The rounded value of u then does not decide
-  /// whether the slide begins.
+  double damping;    ///< Viscous damping cs, N m s/rad
+  double theta;      ///< Rotor angle θ, rad
+  double omega;      ///< Rotor velocity ω, rad/s
+  double direction;  ///< Direction d of the slide, −1 or 1
+  /// Whether the slide starts at ω = 0 because u has just reached d·g(0). The rounded value of u then does
+  /// not decide whether the slide begins.
   bool at_level{false};
 
   SlidingSeries start() const;
@@ -69,15 +71,16 @@ struct Slide {
   void go_to(const SlidingSeries& series, const motion::NextEvent<Event>& next);
 };
 
-/// Whether the slide can leave ω = 0 in its direction under the torque.
+/// Whether the slide can leave ω = 0 in its direction under the torque. @param inertia J, kg m².
 bool leaves_rest(const Slide& slide, double inertia, const motion::TorqueCourse& torque);
 
 struct SlideStep {
-  double time;  ///< Time used, s
-  bool ended;   ///< ω has come to 0, or cannot leave it
+  double time;  ///< Time that the step took, s
+  bool ended;   ///< Whether ω has come to 0, or cannot leave it
 };
 
-/// Advances the slide by a Taylor step, at most by `duration` (s).
+/// Advances the slide by one Taylor step of at most `duration` (s). @param inertia J, kg m². @param tolerance
+/// truncation error of θ allowed per `duration`, rad.
 SlideStep slide_step(Slide& slide, double inertia, const motion::TorqueCourse& torque, double tolerance,
                      double duration);
 

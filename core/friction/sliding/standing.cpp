@@ -9,12 +9,12 @@
 namespace zerocount::friction {
 namespace {
 
-/// Rounding error of the torque at an instant, divided by the breakaway torque. The torque of a coupling may
-/// be some hundred times as large as the part of it that matters here, and the time of a vibration is
-/// rounded.
+/// Assumed rounding error of the torque at an instant, divided by the breakaway torque. The torque of a
+/// coupling may be some hundred times as large as the part of it that matters here, and the time of a
+/// vibration is rounded.
 constexpr double rounding_of_torque = 1e-11;
 
-/// Truncation error allowed in the torque, divided by the breakaway torque.
+/// Truncation error allowed in the torque's Taylor series, divided by the breakaway torque.
 constexpr double tolerance_of_torque = 1e-13;
 
 bool begins_to_fall(const numerics::Series& series) {

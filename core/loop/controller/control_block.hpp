@@ -9,80 +9,83 @@
 
 namespace zerocount::loop {
 
-/// Transfer function H(z) = (b₀ + b₁·z⁻¹ + …)/(1 + a₁·z⁻¹ + …).
+/// Transfer function of a sampled linear system, H(z) = (b₀ + b₁·z⁻¹ + …)/(1 + a₁·z⁻¹ + …).
 struct TransferFunction {
   std::vector<double> b;       ///< Numerator coefficients b₀, b₁, …
   std::vector<double> a{1.0};  ///< Denominator coefficients 1, a₁, …
 };
 
-/// Input signal of a stage of the controller at sample k.
+/// Input signal of a stage of the controller at sample k, in the linear description of the loop.
 enum class LoopSignal {
   torque,          ///< Output of the stage before, N m (rad/s within the cascade); 0 for the first stage
-  error,           ///< Error e_k, counts
+  error,           ///< Control error e_k, reference minus count, counts
   count,           ///< Count of the encoder that closes the loop
   velocity_count,  ///< Count of the encoder that a cascade's velocity loop reads; without a cascade: `count`
-  torque_in_force  ///< Torque decided at sample k − 1, N m
+  torque_in_force  ///< Torque that was decided at sample k − 1, N m
 };
 
-/// Path from one of a stage's inputs to its output.
+/// Path from one of the inputs of a controller stage to its output: an input signal and a transfer function.
 struct SignalPath {
   LoopSignal from;
   TransferFunction transfer;
 };
 
-/// A stage of the controller away from its limits: its output is the sum of its paths.
+/// Linear description of a controller stage, without saturation and other limits: its output is the sum of
+/// its paths.
 using LinearBlock = std::vector<SignalPath>;
 
-/// The stages of a block, or of all blocks of a controller, in order.
+/// Linear descriptions of the stages of a controller block, or of all blocks of a controller, in order.
 using LinearChain = std::vector<LinearBlock>;
 
-/// Bounds of a torque, N m.
+/// Lowest and highest value of a torque, N m.
 struct TorqueRange {
   double lowest{0.0};
   double highest{0.0};
 };
 
-/// Motion of the unrounded reference at a sampling instant.
+/// Motion of the reference, before it is rounded to counts, at a sampling instant.
 struct ReferenceMotion {
-  double velocity{0.0};      ///< ṙ, rad/s
-  double acceleration{0.0};  ///< r̈, rad/s²
-  double position{0.0};      ///< r, counts
+  double velocity{0.0};      ///< Velocity ṙ of the reference, rad/s
+  double acceleration{0.0};  ///< Acceleration r̈ of the reference, rad/s²
+  double position{0.0};      ///< Position r of the reference, counts
 };
 
 /// Inputs of the controller at a sampling instant. Error and count are in counts of the fine encoder; they
-/// are whole numbers unless a coarser encoder closes the loop. velocity_count and other_count are in counts
-/// of their own encoders.
+/// are whole numbers unless a coarser encoder closes the loop. velocity_count and other_count are in the
+/// counts of their own encoders.
 struct Feedback {
-  double error{0.0};            ///< Reference − count, counts
-  double count{0.0};            ///< counts
-  double torque_in_force{0.0};  ///< Torque decided at the last sample, N m; 0 before the first
+  double error{0.0};            ///< Control error: reference minus count, counts
+  double count{0.0};            ///< Count of the encoder that closes the loop, counts
+  double torque_in_force{0.0};  ///< Torque decided at the last sample, N m; 0 before the first sample
   ReferenceMotion reference{};
-  bool new_target{false};  ///< The target differs from that of the last sample.
-  std::int64_t sample{0};  ///< Number of the sample from the start of the trial
-  /// Count of the encoder that a cascade's velocity loop reads; otherwise `count`
+  bool new_target{false};  ///< Whether the target differs from that of the last sample
+  std::int64_t sample{0};  ///< Number of the sample, counted from the start of the trial
+  /// Count of the encoder that a cascade's velocity loop reads; without a cascade equal to `count`
   double velocity_count{0.0};
   double other_count{0.0};  ///< Count of the encoder on the other mass; 0 without it
 };
 
-/// Range and resolution of the converter.
+/// Torque range and resolution of the digital-to-analogue converter, as far as the controller uses them.
 struct DacScale {
-  TorqueRange range{};     ///< Range to which anti-windup clamps the integral.
-  double resolution{0.0};  ///< Δu, N m
+  TorqueRange range{};     ///< Range to which anti-windup clamps the integral, N m
+  double resolution{0.0};  ///< Torque Δu of one code, N m
 };
 
-/// The controller before its first sample.
+/// State and encoders of the controller before its first sample.
 struct ControlStart {
-  double integral{0.0};  ///< I, N m
+  double integral{0.0};  ///< Integral I of the control law, N m
   TorqueRange integral_range{};
-  double resolution{1.0};  ///< Δx, rad per count
+  double resolution{1.0};  ///< Resolution Δx of the encoder that closes the loop, rad per count
   DacScale dac{};
-  double velocity_resolution{1.0};  ///< Δx of the encoder of velocity_count, rad per count
+  double velocity_resolution{1.0};  ///< Resolution Δx of the encoder that a cascade's velocity loop reads,
+                                    ///< rad per count
   double other_resolution{0.0};     ///< Δx of the encoder of other_count, rad per count; 0 without it
-  CountsBefore before{};            ///< counts before the first sample
-  CountsBefore velocity_before{};   ///< velocity_counts before the first sample
+  CountsBefore before{};            ///< Counts of the encoder that closes the loop before the first sample
+  CountsBefore velocity_before{};   ///< Counts of the velocity loop's encoder before the first sample
 };
 
-/// A block of the controller (README.md): its parameters, its state, and its law from sample to sample.
+/// Requirements on a block of the controller (README.md): it is constructed from its parameters, keeps its
+/// state, and computes its output from sample to sample.
 template <class Block>
 concept ControlBlock = std::constructible_from<Block, const ControllerParameters&, const ControlStart&> &&
     requires(Block block, const Block now, const Feedback& feedback, double torque) {

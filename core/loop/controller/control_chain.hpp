@@ -12,7 +12,7 @@
 
 namespace zerocount::loop {
 
-/// Blocks one after the other, from the feedback to the wanted torque.
+/// Controller blocks in series, from the encoder feedback to the wanted torque.
 template <ControlBlock... Blocks>
 class BlockChain {
  public:
@@ -21,23 +21,23 @@ class BlockChain {
   BlockChain(const ControllerParameters& parameters, const ControlStart& start)
       : blocks_(Blocks(parameters, start)...) {}
 
-  /// The wanted torque (N m) at this sample.
+  /// Runs all blocks for this sample. @returns the wanted torque (N m).
   double step(const Feedback& now) {
     double torque = 0.0;
     for_each([&](auto& block) { torque = block.step(now, torque); });
     return torque;
   }
-  /// A sample at which another chain decides.
+  /// Updates the blocks at a sample at which another chain (of the other control phase) decides the torque.
   void observe(const Feedback& now) {
     for_each([&](auto& block) { block.observe(now); });
   }
-  /// A sample at which the torque is held.
+  /// Updates the blocks at a sample at which the torque is held.
   void pause(const Feedback& now) {
     for_each([&](auto& block) { block.pause(now); });
   }
-  /// Prepares the blocks so that the next sample, which may be the first, continues from this torque in force
-  /// (N m). From the last block to the first, each block returns the torque that it needs from the block
-  /// before.
+  /// Sets the states of the blocks so that the next sample, which may be the first, continues from this
+  /// torque in force (N m). From the last block to the first, each block returns the torque that it needs
+  /// from the block before.
   void take_over(double torque) { take_over_by<sizeof...(Blocks)>(torque); }
 
   LinearChain linear() const {
@@ -60,7 +60,8 @@ class BlockChain {
     std::apply([&](auto&... block) { (visit(block), ...); }, blocks_);
   }
 
-  /// Hands the torque over to the first `count` blocks, from the last to the first.
+  /// Passes the torque (N m) to the first `count` blocks, from the last to the first; each sets its state and
+  /// returns the torque that it needs from the block before.
   template <std::size_t count>
   void take_over_by(double torque) {
     if constexpr (count > 0) take_over_by<count - 1>(std::get<count - 1>(blocks_).take_over(torque));
@@ -69,16 +70,16 @@ class BlockChain {
   List blocks_;
 };
 
-/// The blocks of the controller, in order.
+/// The blocks of the controller, in the order in which they act.
 using ControlBlockChain = BlockChain<ControlLaw, Filters, Feedforward, DisturbanceObserver>;
 
-/// The controller's blocks (ControlBlockChain), with a hold of their torque.
+/// The controller's blocks in series (ControlBlockChain), with a hold of their torque at standstill.
 class ControlChain {
  public:
   ControlChain(const ControllerParameters& parameters, const ControlStart& start)
       : blocks_(parameters, start), hold_(parameters, start) {}
 
-  /// The wanted torque (N m) at this sample.
+  /// Runs the blocks and the torque hold for this sample. @returns the wanted torque (N m).
   double step(const Feedback& now) {
     if (hold_.holds(now)) {
       blocks_.pause(now);
@@ -87,16 +88,17 @@ class ControlChain {
     }
     return hold_.torque();
   }
-  /// A sample at which another chain decides.
+  /// Updates the blocks at a sample at which another chain (of the other control phase) decides the torque.
   void observe(const Feedback& now) {
     blocks_.observe(now);
     hold_.restart();
   }
-  /// The next sample continues from this torque in force (N m).
+  /// Sets the states of the blocks so that the next sample continues from this torque in force (N m).
   void take_over(double torque) { blocks_.take_over(torque); }
-  /// Stages away from their limits, while the torque is not held.
+  /// Linear descriptions of the blocks' stages, without their limits, while the torque is not held.
   LinearChain linear() const { return blocks_.linear(); }
-  double integral() const { return blocks_.block<ControlLaw>().integral(); }  ///< I, N m
+  /// Integral I of the control law, N m
+  double integral() const { return blocks_.block<ControlLaw>().integral(); }
 
  private:
   ControlBlockChain blocks_;

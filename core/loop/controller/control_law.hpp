@@ -8,8 +8,8 @@
 
 namespace zerocount::loop {
 
-/// The control law, the first block of the controller: the PID law or the cascade, by
-/// ControlBlocks::structure; or the user's own.
+/// The control law, the first block of the controller: the PID law or the cascade, depending on
+/// ControlBlocks::structure, or the user's own law.
 class ControlLaw {
  public:
   ControlLaw(const ControllerParameters& parameters, const ControlStart& start)
@@ -30,7 +30,7 @@ class ControlLaw {
   LinearChain linear() const {
     return std::visit([](const auto& law) { return law.linear(); }, law_);
   }
-  double integral() const {  ///< I, N m
+  double integral() const {  ///< Integral I of the control law, N m
     return std::visit([](const auto& law) { return law.integral(); }, law_);
   }
 

@@ -10,7 +10,8 @@
 
 namespace zerocount::loop {
 
-/// The pole a = exp(−2π·f·T) of the derivative filter; 0 with an infinite cutoff.
+/// The pole a = exp(−2π·f·T) of the low-pass filter on the difference of counts, f its cutoff; 0 if the
+/// cutoff is infinite.
 inline double derivative_pole(const ControlBlocks& blocks, double sample_rate) {
   return numerics::exp(-2.0 * std::numbers::pi * blocks.derivative_cutoff / sample_rate);
 }
@@ -31,7 +32,7 @@ class CountDifference {
         before_(before),
         difference_(counts_per_sample(before)) {}
 
-  /// d at this sample, counts.
+  /// Updates the filtered mean difference d by the count of this sample. @returns d, counts.
   double step(double count) {
     if (last_counts_.empty()) start(count);
     const double change = (count - last_counts_[oldest_]) / static_cast<double>(window_);
@@ -40,14 +41,14 @@ class CountDifference {
     return difference_;
   }
 
-  /// Takes the count of a sample without changing d.
+  /// Takes the count of a sample into the window without changing the filtered difference d.
   void pass(double count) {
     last_counts_[oldest_] = count;
     oldest_ = (oldest_ + 1) % window_;
   }
-  double value() const { return difference_; }  ///< d of the last step, counts
+  double value() const { return difference_; }  ///< Filtered mean difference d of the last step(), counts
 
-  /// Transfer function `gain`·D(z).
+  /// Transfer function from the count to `gain` times the filtered difference: gain·D(z)/Count(z).
   TransferFunction transfer(double gain) const {
     const double b = gain * (1.0 - pole_) / static_cast<double>(window_);
     std::vector<double> of_counts(window_ + 1);

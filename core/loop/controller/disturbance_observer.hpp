@@ -8,8 +8,8 @@
 
 namespace zerocount::loop {
 
-/// Constants of the observer in units of counts.
-/// @param resolution Δx, rad per count.
+/// Constants of the disturbance observer, converted to units of counts.
+/// @param sample_rate Hz. @param resolution Δx, rad per count.
 inline ObserverConstants<double> observer_constants(const ObserverParameters& observer, double sample_rate,
                                                     double resolution) {
   const double w = std::numbers::pi * observer.bandwidth / sample_rate;
@@ -19,7 +19,8 @@ inline ObserverConstants<double> observer_constants(const ObserverParameters& ob
   return {observer.inertia * rate * rate * acceleration.b0 * resolution, q.b0, q.a1, q.a2};
 }
 
-/// State of the observer after these counts, without torque and with d̂ = 0. The next count is the first one.
+/// Initial state of the disturbance observer after a motion through these counts, without torque and with the
+/// estimate d̂ = 0. The next count is the first one.
 inline BiquadState<double> observer_state_after(const ObserverConstants<double>& c,
                                                 const CountsBefore& before) {
   const double last = counted_since(before, 1);
@@ -79,7 +80,8 @@ class DisturbanceObserver {
   }
 
  private:
-  /// The steady state of an axis that stands still under this torque (N m): d̂ is minus it.
+  /// Sets the steady state of an axis that stands still under this torque (N m): the estimated disturbance d̂
+  /// is minus the torque.
   void hold(double torque) {
     const auto& [acceleration, q, a1, a2] = constants_;
     estimate_ = -torque;
@@ -90,7 +92,7 @@ class DisturbanceObserver {
   bool acts_;
   ObserverConstants<double> constants_;
   BiquadState<double> state_;
-  double estimate_{0.0};  ///< d̂ at the last sample, N m
+  double estimate_{0.0};  ///< Estimate d̂ of the disturbance torque at the last sample, N m
   double first_count_{0.0};
   bool started_{false};
 };

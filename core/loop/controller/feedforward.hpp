@@ -46,7 +46,7 @@ class Feedforward {
 
  private:
   FeedforwardParameters gains_;
-  double added_{0.0};  ///< Torque added at the last sample, N m
+  double added_{0.0};  ///< Feed-forward torque added at the last sample, N m
 };
 
 }  // namespace zerocount::loop

@@ -9,10 +9,11 @@
 namespace zerocount::loop {
 namespace {
 
-/// c₀ + c₁·z⁻¹ + c₂·z⁻².
+/// Coefficients of the polynomial c₀ + c₁·z⁻¹ + c₂·z⁻².
 using Polynomial = std::array<double, 3>;
 
-/// Natural frequency tan(ω0·T/2) of the roots of a polynomial; empty without roots off z = 0, 1 and −1.
+/// Warped natural frequency tan(ω0·T/2) of the roots of a polynomial in z⁻¹; empty if it has no roots other
+/// than z = 0, 1 and −1.
 std::optional<double> natural_frequency(const Polynomial& c) {
   const double low = std::abs(c[0] + c[1] + c[2]);
   const double high = std::abs(c[0] - c[1] + c[2]);
@@ -30,7 +31,7 @@ Polynomial substituted(const Polynomial& c, double a, int order) {
           a * a * c[0] + a * c[1] + c[2]};
 }
 
-/// (n₁·p + n₀)/(d₁·p + 1), p and w as in bilinear.
+/// Digital first-order filter for (n₁·p + n₀)/(d₁·p + 1), with p and w as in bilinear().
 BiquadConstants<double> first_order(double n1, double n0, double d1, double w) {
   const double scale = d1 + w;
   return {(n1 + n0 * w) / scale, (n0 * w - n1) / scale, 0.0, (w - d1) / scale, 0.0};

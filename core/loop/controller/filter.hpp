@@ -8,19 +8,19 @@
 
 namespace zerocount::loop {
 
-/// Biquad of (n₂·p² + n₁·p + n₀)/(p² + 2ζ·p + 1) with p = (1 − z⁻¹)/(w·(1 + z⁻¹)), the bilinear transform of
-/// p = s/ω0.
-/// @param w tan(ω0·T/2) if prewarped at ω0, ω0·T/2 if not.
+/// Coefficients of the digital filter for the transfer function (n₂·p² + n₁·p + n₀)/(p² + 2ζ·p + 1), p =
+/// s/ω0, by the bilinear transform p = (1 − z⁻¹)/(w·(1 + z⁻¹)).
+/// @param damping ζ. @param w tan(ω0·T/2) if prewarped at ω0, ω0·T/2 if not.
 BiquadConstants<double> bilinear(double n2, double n1, double n0, double damping, double w);
 
-/// The filter at this sample rate (Hz). With ω0 = 2π·frequency and p = s/ω0:
+/// Coefficients of the digital filter at this sample rate (Hz). With ω0 = 2π·frequency and p = s/ω0:
 ///
 ///   lowpass  1/(p² + 2ζ·p + 1)
 ///   notch    (p² + 2ζ·depth·p + 1)/(p² + 2ζ·p + 1)
 ///   lead     (1 + √ratio·p)/(1 + p/√ratio)
 ///
 /// each by the bilinear transform prewarped at ω0, s = ω0/tan(ω0·T/2)·(1 − z⁻¹)/(1 + z⁻¹), so that the
-/// response at ω0 equals that of the continuous filter; `biquad` has the given coefficients. The frequency
+/// response at ω0 equals that of the continuous filter; a `biquad` has the given coefficients. The frequency
 /// must be below half the sample rate.
 BiquadConstants<double> discretised(const Filter& filter, double sample_rate);
 
@@ -31,7 +31,7 @@ BiquadConstants<double> discretised(const Filter& filter, double sample_rate);
 /// such filter in s, because of a pole at half the sample rate.
 std::optional<Filter> resampled(const Filter& biquad, double ratio);
 
-/// The filters in series, applied to the torque of the control law. Past values are 0 at first.
+/// The controller's filters in series, applied to the torque of the control law. Past values are 0 at first.
 class Filters {
  public:
   Filters(const ControllerParameters& parameters, const ControlStart& start);
@@ -42,8 +42,9 @@ class Filters {
   }
   static void observe(const Feedback& /*now*/) {}
   static void pause(const Feedback& /*now*/) {}
-  /// Each filter continues from the steady state whose output the next filter needs. A filter without a
-  /// steady state, or without static gain, continues from past values of 0.
+  /// Sets the filters so that their output continues from `torque` (N m): each filter starts in the steady
+  /// state whose output the next filter needs. A filter without a steady state, or without static gain,
+  /// starts with past values of 0. @returns the torque that the first filter needs as its input, N m.
   double take_over(double torque);
 
   LinearChain linear() const;

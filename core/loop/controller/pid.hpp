@@ -26,34 +26,37 @@ inline ErrorDeadbandConstants<double> error_deadband_constants(const ErrorDeadba
   return {deadband.band, subtracts ? deadband.band : 0.0};
 }
 
-/// The integral of a control law:
+/// The integral I of a control law:
 ///
 ///   I ← clamp(ρ·I + increment) where |e_k| is outside the deadband and |e_k| ≤ zone; otherwise I stays,
 ///
 ///   I(z) = 1/(1 − ρ·z⁻¹)·Increment(z),   ρ = exp(−T/τ),
 ///
-/// with the deadband's state by inside_deadband, τ the leak's time constant. Without a leak ρ = 1.
+/// with the state of the deadband by inside_deadband(), and τ the time constant of the leak. Without a leak ρ
+/// = 1.
 class Integrator {
  public:
   explicit Integrator(const IntegralConstants<double>& constants, double integral)
       : constants_(constants), state_{integral, 0.0} {}
 
-  /// Adds an increment to I, subject to deadband, zone, leak and range. @param increment N m. @returns I, N
-  /// m.
+  /// Adds an increment (N m) to the integral I, subject to deadband, zone, leak and range. @param error e,
+  /// counts. @returns I, N m.
   double add(double error, double increment) {
     integrate(constants_, state_, error, increment);
     return state_.integral;
   }
 
-  /// Updates the deadband at a sample at which another law decides. I stays.
+  /// Updates the deadband's state at a sample at which another law (of the other control phase) decides the
+  /// torque. The integral I stays.
   void observe(double error) {
     state_.inside = inside_deadband(constants_, state_.inside, error) ? 1.0 : 0.0;
   }
 
   void set(double integral) { state_.integral = integral; }
-  double value() const { return state_.integral; }  ///< I, N m
+  double value() const { return state_.integral; }  ///< Integral I, N m
 
-  /// Transfer function from x to I outside the deadband, if the increment is half_gain·(x_k + x_{k−1}).
+  /// Transfer function from a signal x to the integral I outside the deadband, if the increment is
+  /// half_gain·(x_k + x_{k−1}) (trapezoidal rule).
   TransferFunction trapezoid(double half_gain) const {
     return {{half_gain, half_gain}, {1.0, -constants_.retention}};
   }
@@ -64,8 +67,9 @@ class Integrator {
 };
 
 struct PidGains {
-  double kp{0.0};  ///< N m/count
-  double ki{0.0};  ///< Gain of the trapezoidal rule, N m/count
+  double kp{0.0};  ///< Proportional gain, N m/count
+  double ki{0.0};  ///< Integral gain of the trapezoidal rule: torque per sum of two successive errors, N
+                   ///< m/count
   double kd{0.0};  ///< Gain on the difference of successive counts, N m/count
 };
 
@@ -95,8 +99,8 @@ class Pid {
     standstill_ = standstill_constants(parameters.blocks.standstill, parameters.sample_rate);
   }
 
-  /// The law without blocks.
-  /// @param integral I before the first sample, N m.
+  /// Creates the PID law without further conditions on its integral, and without a derivative filter.
+  /// @param integral integral I before the first sample, N m.
   /// @param range range to which I is clamped whenever an error changes it.
   Pid(const PidGains& gains, double integral, const TorqueRange& range)
       : Pid(gains, Integrator(integral_constants({}, 1.0, range), integral), CountDifference(0.0)) {}
@@ -123,14 +127,15 @@ class Pid {
     gains_at(now);
   }
 
-  /// I := torque. @returns 0, because the law is the first block.
+  /// Sets the integral I to `torque` (N m), so that the law continues from this torque. @returns 0, the
+  /// torque needed from the block before, because the law is the first block.
   double take_over(double torque) {
     integral_.set(torque);
     return 0.0;
   }
 
-  /// The law away from its limits. Parts without gain are left out, because an integral with ki = 0 would be
-  /// a constant state.
+  /// Linear description of the PID law, without its limits. Parts without gain are left out, because an
+  /// integral with ki = 0 would be a constant state.
   LinearChain linear() const {
     LinearBlock block{{LoopSignal::error, {{gains_.kp}}}};
     if (gains_.ki != 0.0) block.push_back({LoopSignal::error, integral_.trapezoid(gains_.ki)});
@@ -138,13 +143,13 @@ class Pid {
     return {block};
   }
 
-  double integral() const { return integral_.value(); }  ///< I, N m
+  double integral() const { return integral_.value(); }  ///< Integral I of the PID law, N m
 
  private:
   Pid(const PidGains& gains, const Integrator& integral, const CountDifference& difference)
       : gains_(gains), integral_(integral), difference_(difference) {}
 
-  /// The gains that act at this sample.
+  /// The PID gains that act at this sample: the normal gains, or those at standstill.
   PidGains gains_at(const Feedback& now) {
     const bool stands = stands_still(standstill_, run_, now.new_target ? 1.0 : 0.0, now.error);
     return stands ? PidGains{standstill_.kp, standstill_.ki, standstill_.kd} : gains_;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::align_val_t state_alignment{64};
 
-/// The state of a plugin in one trial.
+/// Deleter for the state that a plugin keeps for one trial.
 struct FreeState {
   void operator()(std::byte* bytes) const { ::operator delete(bytes, state_alignment); }
 };
@@ -30,8 +30,9 @@ State make_state(std::size_t size) {
   return bytes;
 }
 
-/// Starts the library's controller. @param setup must outlive the result
-/// @throws Failure (bad_input) if it refuses its parameters.
+/// Starts the controller of a loaded library for one trial. @param setup must outlive the result. @returns
+/// the function that computes the torque at a sample.
+/// @throws Failure (bad_input) if the library refuses its parameters.
 plugin::StepFunction started(const plugin::ControllerPlugin& plugin, const zerocount_setup& setup) {
   const zerocount_controller& functions = *plugin.functions;
   std::shared_ptr<std::byte> state = make_state(functions.state_size);

@@ -12,13 +12,14 @@ namespace zerocount::loop {
 /// zerocount/controller.h. It has no phases, and its transfer function is unknown.
 class UserLaw {
  public:
-  /// @throws Failure (bad_input) if the plugin is not loaded, or refuses its parameters.
+  /// Starts the plugin's control law. @throws Failure (bad_input) if the plugin is not loaded, or refuses its
+  /// parameters.
   UserLaw(const ControllerParameters& parameters, const ControlStart& start);
   UserLaw(UserLaw&&) noexcept;
   UserLaw& operator=(UserLaw&&) noexcept;
   ~UserLaw();
 
-  /// The wanted torque, N m; not finite if the plugin fails.
+  /// The torque that the plugin wants at this sample, N m; not finite if the plugin fails.
   double step(const Feedback& now, double torque);
   void observe(const Feedback&) {}
   void pause(const Feedback&) {}

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "experiments/study/study.hpp"
+#include "tests/support/marked_text.hpp"
 
 namespace zerocount {
 
@@ -92,6 +93,8 @@ sweep:
 
 namespace {
 
+constexpr const char* text_name = "m.yaml";
+
 std::vector<std::string> split(std::string_view text, std::string_view separator) {
   std::vector<std::string> parts;
   while (!text.empty()) {
@@ -104,8 +107,8 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
 
 bool is_fault(const std::string& line, const std::string& fault) {
   const std::vector<std::string> words = split(fault, " | ");
-  const bool in_manifest = fault.front() >= '0' && fault.front() <= '9';
-  const std::string place = (in_manifest ? "m.yaml:" : "") + words.front() + ": ";
+  const bool in_manifest = fault.starts_with("«") || (fault.front() >= '0' && fault.front() <= '9');
+  const std::string place = (in_manifest ? std::string(text_name) + ":" : "") + words.front() + ": ";
   return line.starts_with(place) && std::all_of(words.begin() + 1, words.end(), [&](const std::string& word) {
            return line.find(word, place.size()) != std::string::npos;
          });
@@ -126,18 +129,24 @@ bool is_fault(const std::string& line, const std::string& fault) {
   return has_faults(split(message, "\n"), faults);
 }
 
-std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides) {
+std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides,
+                       const sections::ExternalInputs& external) {
+  const MarkedText marked = marked_text(text);
   try {
-    study_of(text, overrides);
+    manifest::parse_study(marked.text, text_name, overrides, external);
   } catch (const Failure& failure) {
     if (failure.code() != ExitCode::bad_input) throw;
-    return failure.what();
+    return with_marks(failure.what(), text_name, marked);
   }
   return "";
 }
 
-study::Study study_of(const std::string& text, const std::vector<std::string>& overrides) {
-  return manifest::parse_study(text, "m.yaml", overrides);
+study::Study study_of(const std::string& text, const std::vector<std::string>& overrides,
+                      const sections::ExternalInputs& external) {
+  const MarkedText marked = marked_text(text);
+  study::Study study = manifest::parse_study(marked.text, text_name, overrides, external);
+  for (std::string& warning : study.warnings) warning = with_marks(std::move(warning), text_name, marked);
+  return study;
 }
 
 std::vector<std::string_view> unstated_premises(const study::Study& study) {

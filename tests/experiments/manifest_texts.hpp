@@ -19,11 +19,15 @@ std::string full_manifest();
 /// A manifest that uses all further features of a closed loop, beyond those of full_manifest().
 std::string extended_manifest();
 
-/// The message with which the text is refused; empty if it is accepted. The text is named "m.yaml".
-std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides = {});
+/// The message with which the text is refused; empty if it is accepted. The text is named "m.yaml". Marks
+/// «…» in the text are removed before; in the message they stand for their places (see with_marks()).
+std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides = {},
+                       const sections::ExternalInputs& external = {});
 
-/// The study that parse_study() makes of the manifest `text`, under the file name "m.yaml".
-study::Study study_of(const std::string& text, const std::vector<std::string>& overrides = {});
+/// The study that parse_study() makes of the manifest `text`, under the file name "m.yaml". Marks «…» in the
+/// text are removed before; in the warnings they stand for their places.
+study::Study study_of(const std::string& text, const std::vector<std::string>& overrides = {},
+                      const sections::ExternalInputs& external = {});
 
 /// Index of the input column with this name.
 std::size_t column_of(const study::Study& study, const std::string& name);
@@ -32,9 +36,10 @@ std::size_t column_of(const study::Study& study, const std::string& name);
 /// manifest does not mention them.
 std::vector<std::string_view> unstated_premises(const study::Study& study);
 
-/// Whether a message has these faults, one per line. "6:9: plant.inertai | inertia" means a line that begins
-/// with "m.yaml:6:9: plant.inertai: " and contains the word "inertia" after it; there may be several words. A
-/// fault that does not begin with a digit names its source, such as "--set trials=x: trials | number".
+/// Whether a message has these faults, one per line. "«»: plant.inertai | inertia" is a line that begins with
+/// "m.yaml:«»: plant.inertai: ", where «» is the only mark of the text, and has the word "inertia" behind it;
+/// there may be several words. "«2»: …" is at the second of several marks, "4:9: …" in line 4 and column 9.
+/// Another fault names its source, such as "--set trials=x: trials | number".
 ::testing::AssertionResult has_faults(const std::string& message, std::string_view faults);
 
 /// Whether these warnings have these faults, one per warning, in the notation "line:column: path | word".

@@ -22,8 +22,14 @@ FORBIDDEN_IN_CORE = re.compile(
     re.MULTILINE,
 )
 
-# Used unqualified in every folder: exit codes, and functions that overload resolution chooses by number type.
-WITHOUT_NAMESPACE = {"analysis/statistics/elementary_functions.cpp", "core/failure/failure.hpp", "core/numerics/number.hpp"}
+# Used unqualified in every folder: exit codes, and functions that overload resolution chooses by number type. The handles of parameters
+# have a namespace of their own, parameter, because each of them reads as the name of one parameter.
+WITHOUT_NAMESPACE = {
+    "analysis/statistics/elementary_functions.cpp",
+    "core/failure/failure.hpp",
+    "core/numerics/number.hpp",
+    "experiments/parameters/handles.hpp",
+}
 NAMESPACE = re.compile(r"^(?:inline )?namespace (\S+) \{")
 # A definition stands at the margin: what is indented is a member of something else.
 TYPE = re.compile(r"^(?:struct|class|enum(?: class| struct)?) (?:alignas\(.*?\) )?(\w+)[^;(]*(?:\{|$)|^using (\w+) =")

@@ -89,7 +89,7 @@ TEST_F(FirstStudy, ItsCommandsPrintWhatTheReadmeSays) {
   ASSERT_EQ(points.size(), 8U);
   // Only the numbers are compared, so that the sentences may be reworded.
   std::string text = text_.substr(text_.find("The goal is met at the best"));
-  text.resize(text.find("\n\n"));
+  text = text.substr(0, text.find("\n\n"));
   std::replace(text.begin(), text.end(), '\n', ' ');
   const auto expect_said = [&text](const std::string& words) { EXPECT_TRUE(says(text, words)) << words; };
   const auto expect_percent = [&](const std::string& number) { expect_said(" " + number + " %"); };

@@ -3,6 +3,7 @@
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/point_judgements.hpp"
 #include "tests/analysis/study_files.hpp"
+#include "tests/support/marked_text.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -15,8 +16,10 @@ comparison::GateRules read(const std::string& text) {
   return comparison::parse_gate_rules(text, "gate.yaml", labels);
 }
 
+/// The message about the text, which may have marks «…» (see with_marks()).
 std::string fault(const std::string& text) {
-  return refusal_by([&] { read(text); });
+  const MarkedText marked = marked_text(text);
+  return with_marks(refusal_by([&] { read(marked.text); }), "gate.yaml", marked);
 }
 
 TEST(MarginsFile, IsReadIntoTheGateRules) {
@@ -56,8 +59,8 @@ points:
 TEST(MarginsFile, FailOnChangedMakesEveryChangeFail) {
   EXPECT_TRUE(read("fail_on: changed\n").changed_fails);
   EXPECT_FALSE(read("fail_on: worse\n").changed_fails);
-  EXPECT_EQ(fault("fail_on: better\n"),
-            "gate.yaml:1:10: fail_on: 'better' is not a kind of failure; expected worse or changed");
+  EXPECT_EQ(fault("fail_on: «better»\n"),
+            "gate.yaml:«»: fail_on: 'better' is not a kind of failure; expected worse or changed");
 }
 
 TEST(MarginsFile, UnnamedMeasuresKeepTheirDefaultMargins) {
@@ -72,39 +75,39 @@ TEST(MarginsFile, EveryMistakeIsReportedWithLineAndColumn) {
   EXPECT_EQ(fault("margin: {}\n"),
             "gate.yaml:1:1: margin: unknown key, nearest known: margins; expected one of confidence, "
             "false_discovery_rate, fail_on, measures, margins, require, points");
-  EXPECT_EQ(fault("margins: {sucess_rate: 0.1}\n"),
-            "gate.yaml:1:11: margins.sucess_rate: unknown key, nearest known: success_rate; expected one of "
+  EXPECT_EQ(fault("margins: {«sucess_rate»: 0.1}\n"),
+            "gate.yaml:«»: margins.sucess_rate: unknown key, nearest known: success_rate; expected one of "
             "goal_rate, goal_machines, goal_settling_time, success_rate, arrival_rate, stable_rate, "
             "arrival_time, jerk_count");
   EXPECT_EQ(
-      fault("margins: {success_rate: {}}\n"),
-      "gate.yaml:1:25: margins.success_rate: the margin has no size; expected absolute or relative, or both");
+      fault("margins: {success_rate: «{}»}\n"),
+      "gate.yaml:«»: margins.success_rate: the margin has no size; expected absolute or relative, or both");
   EXPECT_EQ(
-      fault("margins: {success_rate: 2}\n"),
-      "gate.yaml:1:25: margins.success_rate: no proportion of trials can be worse by so much; expected less "
+      fault("margins: {success_rate: «2»}\n"),
+      "gate.yaml:«»: margins.success_rate: no proportion of trials can be worse by so much; expected less "
       "than 1, such as 0.02 for two percent points");
-  EXPECT_EQ(fault("points: {c: {success_rate: 0.1}}\n"),
-            "gate.yaml:1:10: points.c: no design point of the files has this label; expected one of theirs, "
+  EXPECT_EQ(fault("points: {«c»: {success_rate: 0.1}}\n"),
+            "gate.yaml:«»: points.c: no design point of the files has this label; expected one of theirs, "
             "such as "
             "'a'");
-  EXPECT_EQ(fault("require: success_rate = 1\n"),
-            "gate.yaml:1:10: require: 'success_rate = 1' cannot be understood; expected a text such as "
+  EXPECT_EQ(fault("require: «success_rate = 1»\n"),
+            "gate.yaml:«»: require: 'success_rate = 1' cannot be understood; expected a text such as "
             "'success_rate "
             "≥ 0.995' (or >=, ≤, <=), or goal");
   for (const char* text : {"goal 5", "success_rate ≥ 0.9 of", "success_rate ≥", "≥ 0.9", "Success ≥ 0.9"})
     EXPECT_TRUE(says(fault(fmt::format("require: {}\n", text)), "cannot be understood")) << text;
-  EXPECT_EQ(fault("require: [success_rate ≥ 99.5]\n"),
-            "gate.yaml:1:11: require.0: 99.5 is not a proportion; expected a number from 0 to 1");
-  EXPECT_EQ(fault("require: arrival_time.p95 ≥ 0.1\n"),
-            "gate.yaml:1:10: require: arrival_time.p95 cannot have a lower limit; expected ≤ and a limit");
-  EXPECT_EQ(fault("measures: []\n"),
-            "gate.yaml:1:11: measures: the list is empty; expected a list of some of goal_rate, "
+  EXPECT_EQ(fault("require: [«success_rate ≥ 99.5»]\n"),
+            "gate.yaml:«»: require.0: 99.5 is not a proportion; expected a number from 0 to 1");
+  EXPECT_EQ(fault("require: «arrival_time.p95 ≥ 0.1»\n"),
+            "gate.yaml:«»: require: arrival_time.p95 cannot have a lower limit; expected ≤ and a limit");
+  EXPECT_EQ(fault("measures: «[]»\n"),
+            "gate.yaml:«»: measures: the list is empty; expected a list of some of goal_rate, "
             "goal_machines, goal_settling_time, success_rate, arrival_rate, stable_rate, arrival_time, "
             "jerk_count");
-  const std::string both = fault("margins: {success_rate: -1, jerk_count: no}\nconfidence: 2\n");
-  EXPECT_TRUE(says(both, "gate.yaml:1:25: margins.success_rate: ",
-                   "gate.yaml:1:41: margins.jerk_count: 'no' is a truth value; ",
-                   "gate.yaml:2:13: confidence: "));
+  const std::string all = fault("margins: {success_rate: «-1», jerk_count: «no»}\nconfidence: «2»\n");
+  EXPECT_TRUE(says(all, "gate.yaml:«1»: margins.success_rate: ",
+                   "gate.yaml:«2»: margins.jerk_count: 'no' is a truth value; ",
+                   "gate.yaml:«3»: confidence: "));
   EXPECT_TRUE(
       says(fault("require: speed ≥ 1\n"), "'speed' cannot be required; expected one of success_rate"));
 }
@@ -154,9 +157,9 @@ TEST(MarginsFile, AnIncompleteRequirementIsRefused) {
 }
 
 TEST(MarginsFile, RefusesAVeryLongRequirement) {
-  const std::string long_name = fault("require: " + std::string(200'000, 'a') + " ≥ 1\n");
+  const std::string long_name = fault("require: «" + std::string(200'000, 'a') + " ≥ 1»\n");
   EXPECT_TRUE(
-      says(long_name, "gate.yaml:1:10: require: 'aaa", "' cannot be understood; expected a text such as"));
+      says(long_name, "gate.yaml:«»: require: 'aaa", "' cannot be understood; expected a text such as"));
 }
 
 TEST(MarginsFile, AMissingOrEmptyFileIsRefused) {

@@ -140,7 +140,7 @@ TEST_EACH_SEED(SeveralGoals, TheLoadIsShownUnderItsWorstCondition) {
           point.for_the_load[claim.goal].sum({.setting = static_cast<std::size_t>(c)});
       const double rate = static_cast<double>(counts.met) / static_cast<double>(counts.moves);
       lowest = std::min(lowest, rate);
-      if (static_cast<std::size_t>(c) == claim.load_condition) {
+      if (static_cast<std::size_t>(c) == claim.load_setting) {
         EXPECT_EQ(claim.of_load->value, rate);
       }
     }

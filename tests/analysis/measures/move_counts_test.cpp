@@ -93,7 +93,7 @@ TEST_EACH_SEED(CountsInCells, EqualTheCountsOfTheTrialsOfEachCell) {
   const CellCounts counts = counted();
   EXPECT_EQ(counts.sum(), alone({}));
   ASSERT_EQ(std::ssize(counts.by_world()), worlds);
-  ASSERT_EQ(std::ssize(counts.by_condition()), conditions);
+  ASSERT_EQ(std::ssize(counts.by_setting()), conditions);
   for (std::size_t world = 0; std::cmp_less(world, worlds); ++world)
     EXPECT_EQ(counts.by_world()[world], alone({.world = world}));
   for (std::size_t condition = 0; condition < counts.settings(); ++condition) {

@@ -7,7 +7,6 @@
 
 #include <fmt/core.h>
 
-#include "results/layout/fields.hpp"
 #include "tests/core/batch/reversal_depths.hpp"
 
 namespace zerocount::testing {
@@ -123,17 +122,15 @@ void Comparison::compare_after_slide(const trial::SampleRecord& a, const batch::
 /// Compares all measures of a move: they must be equal, except positions, which must agree to the accuracy of
 /// θ, and the reversal depth, which has its own rule.
 void Comparison::compare_move(std::size_t number, const trial::MoveOutcome& a, const trial::MoveOutcome& b) {
-  study::StudyFeatures features;
-  features.stopping = features.motion = features.steps = features.following = features.reversals = true;
   std::string text;
-  for (const layout::RecordField<trial::MoveOutcome>& field : layout::outcome_fields(features)) {
+  for (const layout::RecordField<trial::MoveOutcome>& field : fields_of_moves()) {
     const std::string& name = field.column.name;
     const double x = layout::value_of(field, a);
     const double y = layout::value_of(field, b);
     if (name == "reversal_depth" || x == y || (std::isnan(x) && std::isnan(y))) continue;
-    const bool is_position = field.column.unit == "rad" || name == "true_error" || name == "step_motion" ||
-                             name == "reversal_spike" || name.starts_with("rest_error") ||
-                             name.starts_with("following_error");
+    const bool is_position = field.column.unit == "rad" || name.ends_with("true_error") ||
+                             name == "step_motion" || name == "reversal_spike" ||
+                             name.starts_with("rest_error") || name.starts_with("following_error");
     const double difference = std::abs(x - y) / (field.column.unit == "rad" ? resolution_ : 1.0);  // counts
     if (!is_position || !(difference < allowed())) text += fmt::format(" {} {} and {}", name, x, y);
     if (is_position && !slid_) result_.floating = std::max(result_.floating, difference);

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "core/trial/trial.hpp"
+#include "results/layout/measure_table.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -36,58 +37,25 @@ class Differences {
 };
 
 void compare(Differences& d, const trial::MoveOutcome& a, const trial::MoveOutcome& b) {
-  d.expect_same("outcome", static_cast<std::int64_t>(a.outcome), static_cast<std::int64_t>(b.outcome));
-  d.expect_same("arrived", std::int64_t{a.arrived}, std::int64_t{b.arrived});
-  d.expect_same("stable", std::int64_t{a.stable}, std::int64_t{b.stable});
-  d.expect_same("broke_away", std::int64_t{a.broke_away}, std::int64_t{b.broke_away});
-  d.expect_same("saturated", std::int64_t{a.saturated}, std::int64_t{b.saturated});
-  d.expect_same("stopped", std::int64_t{a.stopped}, std::int64_t{b.stopped});
-  d.expect_same("arrival", a.arrival, b.arrival);
-  d.expect_same("arrival_time", a.arrival_time, b.arrival_time);
-  d.expect_same("final_settling_time", a.final_settling_time, b.final_settling_time);
-  d.expect_same("zero_fraction", a.zero_fraction, b.zero_fraction);
-  d.expect_same("oscillation_amplitude", a.oscillation_amplitude, b.oscillation_amplitude);
-  d.expect_same("oscillation_period", a.oscillation_period, b.oscillation_period);
-  d.expect_same("midway_error", a.midway_error, b.midway_error);
-  d.expect_same("travel_time", a.travel_time, b.travel_time);
-  d.expect_same("overshoot", a.overshoot, b.overshoot);
-  d.expect_same("final_error", a.final_error, b.final_error);
-  d.expect_same("true_error", a.true_error, b.true_error);
-  d.expect_same("final_position", a.final_position, b.final_position);
-  d.expect_same("holding_torque", a.holding_torque, b.holding_torque);
-  d.expect_same("peak_torque", a.peak_torque, b.peak_torque);
-  d.expect_same("creep", a.creep, b.creep);
-  d.expect_same("reversal_depth", a.reversal_depth, b.reversal_depth);
-  d.expect_same("phase_changes", a.phase_changes, b.phase_changes);
-  d.expect_same("encoder_disagreement", a.encoder_disagreement, b.encoder_disagreement);
-  d.expect_same("jerk_count", a.jerk_count, b.jerk_count);
-  d.expect_same("jerk_agreement", a.jerk_agreement, b.jerk_agreement);
-  d.expect_same("rest_error_rms", a.rest_error_rms, b.rest_error_rms);
-  d.expect_same("rest_error_range", a.rest_error_range, b.rest_error_range);
-  d.expect_same("rest_torque_power", a.rest_torque_power, b.rest_torque_power);
-  d.expect_same("rest_torque_noise", a.rest_torque_noise, b.rest_torque_noise);
-  d.expect_same("following_error_rms", a.following_error_rms, b.following_error_rms);
-  d.expect_same("reversal_spike", a.reversal_spike, b.reversal_spike);
-  d.expect_same("true_overshoot", a.true_overshoot, b.true_overshoot);
-  for (std::size_t i = 0; i < trial::max_tolerances; ++i)
-    d.expect_same("tolerance_settling_time", a.tolerance_settling_times[i], b.tolerance_settling_times[i]);
-  d.expect_same("step_motion", a.step_motion, b.step_motion);
+  d.expect_same("number", a.number, b.number);
+  for (const layout::RecordField<trial::MoveOutcome>& field : fields_of_moves())
+    d.expect_same(field.column.name.c_str(), layout::value_of(field, a), layout::value_of(field, b));
 }
 
 void compare(Differences& d, const trial::Jerk& a, const trial::Jerk& b) {
-  d.expect_same("jerk's move", a.move, b.move);
-  d.expect_same("onset", a.onset, b.onset);
-  d.expect_same("duration", a.duration, b.duration);
-  d.expect_same("magnitude", a.magnitude, b.magnitude);
-  d.expect_same("direction", std::int64_t{a.direction}, std::int64_t{b.direction});
+  for (const layout::RecordField<layout::JerkRecord>& field : layout::jerk_fields())
+    d.expect_same(field.column.name.c_str(), layout::value_of(field, {a}), layout::value_of(field, {b}));
 }
 
 void compare(Differences& d, const batch::BatchSample& a, const batch::BatchSample& b) {
-  d.expect_same("k", a.k, b.k);
-  d.expect_same("count", a.count, b.count);
-  d.expect_same("code", a.code, b.code);
-  d.expect_same("theta", a.theta, b.theta);
-  d.expect_same("xp", a.xp, b.xp);
+  // A trial has another number alone than in a batch.
+  [[maybe_unused]] const auto& [trial, k, count, code, theta, xp, xh] = a;
+  d.expect_same("k", k, b.k);
+  d.expect_same("count", count, b.count);
+  d.expect_same("code", code, b.code);
+  d.expect_same("theta", theta, b.theta);
+  d.expect_same("xp", xp, b.xp);
+  d.expect_same("xh", xh, b.xh);
 }
 
 /// Compares two lists of results element by element, up to the first pair that differs, and reports the
@@ -102,6 +70,43 @@ void compare_all(Differences& d, const char* what, const std::vector<T>& a, cons
 }
 
 }  // namespace
+
+const std::vector<layout::RecordField<trial::MoveOutcome>>& fields_of_moves() {
+  static const std::vector<layout::RecordField<trial::MoveOutcome>> fields = [] {
+    const trial::VerdictParameters verdict = verdict_with_all_measures();
+    std::vector<layout::RecordField<trial::MoveOutcome>> all;
+    for (const layout::Measure& measure :
+         layout::measure_table({.bands = verdict.bands, .tolerances = verdict.tolerances}))
+      all.push_back(measure.field);
+    return all;
+  }();
+  return fields;
+}
+
+trial::VerdictParameters verdict_with_all_measures() {
+  trial::VerdictParameters verdict;
+  verdict.bands.count = verdict.bands.limits.size();
+  for (std::size_t i = 0; i < verdict.bands.count; ++i)
+    verdict.bands.limits[i] = static_cast<std::int64_t>(i * i);
+  verdict.tolerances.count = verdict.tolerances.limits.size();
+  for (std::size_t i = 0; i < verdict.tolerances.count; ++i)
+    verdict.tolerances.limits[i] = std::ldexp(1e-7, static_cast<int>(i));
+  verdict.position_error = verdict.motion = true;
+  verdict.rest_band = 1.0;
+  return verdict;
+}
+
+trial::TrialParameters with_all_measures(trial::TrialParameters trial) {
+  trial::VerdictParameters verdict = verdict_with_all_measures();
+  verdict.dwell = trial.verdict.dwell;
+  verdict.window = trial.verdict.window;
+  if (trial.plant.load.inertia > 0.0) {
+    verdict.other_mass = trial.plant.load.encoder == motion::EncoderPlace::load ? motion::EncoderPlace::motor
+                                                                                : motion::EncoderPlace::load;
+  }
+  trial.verdict = verdict;
+  return trial;
+}
 
 std::vector<BatchedTrial> run_batch(const std::vector<trial::TrialParameters>& trials,
                                     const batch::BatchSettings& settings, Observed observed) {
@@ -138,7 +143,7 @@ BatchedTrial run_by_reference(const trial::TrialParameters& parameters) {
   trial::TrialObservers observers;
   observers.jerk = [&](const trial::Jerk& jerk) { trial.jerks.push_back(jerk); };
   observers.sample = [&](const trial::SampleRecord& r) {
-    trial.samples.push_back({0, r.k, r.count, r.code, r.theta, r.xp});
+    trial.samples.push_back({0, r.k, r.count, r.code, r.theta, r.xp, r.xh});
   };
   trial.outcome = trial::run_trial(parameters, observers);
   return trial;

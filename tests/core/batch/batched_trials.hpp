@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/batch/batch.hpp"
+#include "results/layout/fields.hpp"
 #include "tests/support/random_trials.hpp"
 
 namespace zerocount::testing {
@@ -28,6 +29,16 @@ std::vector<BatchedTrial> run_batch(const std::vector<trial::TrialParameters>& t
 std::vector<BatchedTrial> run_batch(batch::BatchEngine& engine,
                                     const std::vector<trial::TrialParameters>& trials,
                                     Observed observed = Observed::samples_and_jerks);
+
+/// All measures of a move that a results file may have, with those of all error bands and tolerances of
+/// verdict_with_all_measures().
+const std::vector<layout::RecordField<trial::MoveOutcome>>& fields_of_moves();
+
+/// Parameters of a verdict that ask for all measures, except the measures of another mass.
+trial::VerdictParameters verdict_with_all_measures();
+
+/// The trial with all measures, and with the measures of the other mass if it has a second mass.
+trial::TrialParameters with_all_measures(trial::TrialParameters trial);
 
 /// Text of the differences between two results of one trial, compared bit by bit; empty if there are none.
 /// Samples are compared if both results have samples.

@@ -45,6 +45,13 @@ TEST_P(BatchEquality, RandomTrialsInLanesEqualTheReference) {
   expect_agreement_in_lanes(trials, GetParam().name);
 }
 
+TEST_P(BatchEquality, AllMeasuresOfTrialsInLanesEqualTheReference) {
+  std::vector<trial::TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 60; ++i)
+    trials.push_back(with_all_measures(trial_for_lanes(GetParam().kind, 80000 + i)));
+  expect_agreement_in_lanes(trials, GetParam().name);
+}
+
 TEST_P(BatchEquality, TrialsWithAnyCreepExponentEqualTheReference) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; trials.size() < 150; ++i) {

@@ -25,6 +25,8 @@ std::vector<trial::TrialParameters> different_trials() {
   append(bench_trials("bench-creep", 0, 20, {"command.hold=0.7"}));
   for (const TrialKind kind : kinds) {
     for (std::uint64_t i = 0; i < 15; ++i) trials.push_back(trial_for_lanes(kind, 50000 + i));
+    for (std::uint64_t i = 0; i < 2; ++i)
+      trials.push_back(with_all_measures(trial_for_lanes(kind, 52000 + i)));
     for (std::uint64_t i = 0; i < 3; ++i) trials.push_back(random_trial(kind, 50000 + i));
     for (std::uint64_t i = 0; i < 3; ++i) {
       trials.push_back(trial_for_lanes(kind, 51000 + i));
@@ -33,6 +35,55 @@ std::vector<trial::TrialParameters> different_trials() {
     }
   }
   return trials;
+}
+
+/// A value of any type. The conversion adds the size of the type.
+struct AnyMember {
+  std::size_t& size;
+  template <class Member>
+  operator Member() const {
+    size += sizeof(Member);
+    return {};
+  }
+};
+
+/// Size of all members of an aggregate together, without padding, in bytes.
+template <class Record, class... Members>
+std::size_t size_of_members(std::size_t& size, Members... members) {
+  if constexpr (requires { Record{members..., AnyMember{size}}; }) {
+    return size_of_members<Record>(size, members..., AnyMember{size});
+  } else {
+    static_cast<void>(Record{members...});
+    return size;
+  }
+}
+
+/// Number of bytes of a record whose change is seen. @param differ whether two records are seen to differ.
+template <class Record, class Differ>
+std::size_t seen_bytes(Differ differ) {
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < sizeof(Record); ++i) {
+    std::array<unsigned char, sizeof(Record)> bytes{};
+    const auto zero = std::bit_cast<Record>(bytes);
+    bytes[i] = 1;
+    if (differ(zero, std::bit_cast<Record>(bytes))) ++seen;
+  }
+  return seen;
+}
+
+// The tests of the batch engine rest on this comparison. A new member of an outcome must be a measure of the
+// table, or be compared beside it.
+TEST(DifferenceInBits, SeesEachMember) {
+  const auto moves_differ = [](const trial::MoveOutcome& a, const trial::MoveOutcome& b) {
+    return !difference_in_bits({{{a}}, {}, {}}, {{{b}}, {}, {}}).empty();
+  };
+  std::size_t size = 0;
+  EXPECT_EQ(seen_bytes<trial::MoveOutcome>(moves_differ), size_of_members<trial::MoveOutcome>(size));
+  const auto jerks_differ = [](const trial::Jerk& a, const trial::Jerk& b) {
+    return !difference_in_bits({{}, {a}, {}}, {{}, {b}, {}}).empty();
+  };
+  size = 0;
+  EXPECT_EQ(seen_bytes<trial::Jerk>(jerks_differ), size_of_members<trial::Jerk>(size));
 }
 
 class BatchIndependence : public ::testing::Test {

@@ -130,7 +130,7 @@ TEST(Saltelli, AnIncompleteRowIsRefusedWithTheNearestNumbersOfTrials) {
 
 TEST(Saltelli, ADesignWithoutRandomParametersIsRefused) {
   EXPECT_TRUE(
-      has_faults(refusal_of(minimal_manifest("design: saltelli\n"), {}), "6:9: design | nothing is drawn"));
+      has_faults(refusal_of(minimal_manifest("design: «saltelli»\n"), {}), "«»: design | nothing is drawn"));
 }
 
 random::RandomStream stream_of(std::uint64_t seed) {

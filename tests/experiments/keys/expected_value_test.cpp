@@ -49,14 +49,14 @@ TEST(ExpectedValue, MessageNamesTheUnitAndASuitableDistribution) {
 
 TEST(ExpectedValue, AnOutOfRangeMessageNamesUnitAndDistributionToo) {
   EXPECT_TRUE(
-      has_faults(refusal_of(minimal_manifest("plant: {inertia: 0}\n")),
-                 "6:18: plant.inertia | greater than 0, in kg m^2, or a distribution, such as {uniform: "
+      has_faults(refusal_of(minimal_manifest("plant: {inertia: «0»}\n")),
+                 "«»: plant.inertia | greater than 0, in kg m^2, or a distribution, such as {uniform: "
                  "[0.00044, 0.00066]}"));
   EXPECT_TRUE(
-      has_faults(refusal_of(minimal_manifest("dac: {bits: 0}\n")),
-                 "6:13: dac.bits | from 1 to 32, in bit, or a distribution, such as {integers: [10, 14]}"));
-  EXPECT_TRUE(says(refusal_of(minimal_manifest("axis: linear\nplant: {inertia: 0}\n")),
-                   "7:18: plant.inertia: '0' is out of range; expected a number greater than 0, in kg, or a "
+      has_faults(refusal_of(minimal_manifest("dac: {bits: «0»}\n")),
+                 "«»: dac.bits | from 1 to 32, in bit, or a distribution, such as {integers: [10, 14]}"));
+  EXPECT_TRUE(says(refusal_of(minimal_manifest("axis: linear\nplant: {inertia: «0»}\n")),
+                   "«»: plant.inertia: '0' is out of range; expected a number greater than 0, in kg, or a "
                    "distribution, such as {uniform: [low, high]}"));
 }
 
@@ -76,12 +76,12 @@ TEST(ExpectedValue, AnUnboundedNormalIsAnsweredWithABoundedDistribution) {
     }
   }
   EXPECT_TRUE(has_faults(
-      refusal_of(minimal_manifest("friction: {coulomb_ratio: {normal: {mean: 0.8, sd: 0.1}}}\n")),
-      "6:36: friction.coulomb_ratio.normal | {truncated_normal: {mean: 0.8, sd: 0.1, low: 0.5, high: 1}}"));
-  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {k1: {normal: {mean: -1, sd: 0.1}}}\n")),
-                         "6:25: friction.k1.normal | truncated_normal or lognormal"));
-  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {k1: {uniform: [-1, 1]}}\n")),
-                         "6:26: friction.k1.uniform | only, in N m/rad"));
+      refusal_of(minimal_manifest("friction: {coulomb_ratio: {normal: «{mean: 0.8, sd: 0.1}»}}\n")),
+      "«»: friction.coulomb_ratio.normal | {truncated_normal: {mean: 0.8, sd: 0.1, low: 0.5, high: 1}}"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {k1: {normal: «{mean: -1, sd: 0.1}»}}\n")),
+                         "«»: friction.k1.normal | truncated_normal or lognormal"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {k1: {uniform: «[-1, 1]»}}\n")),
+                         "«»: friction.k1.uniform | only, in N m/rad"));
 }
 
 TEST(ExpectedValue, AnotherCommonNameIsAnsweredWithTheParameter) {

@@ -4,6 +4,7 @@
 
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/marked_text.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -151,8 +152,10 @@ TEST_F(ManifestFile, IsReadAndNamedInMessages) {
   std::ofstream(path) << minimal_manifest();
   EXPECT_EQ(load_study(path).manifest.text, minimal_manifest());
   const auto bad = folder / "bad.yaml";
-  std::ofstream(bad) << minimal_manifest("plant: 1\n");
-  EXPECT_TRUE(failure_of(bad, ExitCode::bad_input).starts_with(bad.string() + ":6:8: plant: "));
+  const MarkedText marked = marked_text(minimal_manifest("plant: «1»\n"));
+  std::ofstream(bad) << marked.text;
+  const std::string message = with_marks(failure_of(bad, ExitCode::bad_input), bad.string(), marked);
+  EXPECT_TRUE(message.starts_with(bad.string() + ":«»: plant: ")) << message;
 }
 
 TEST_F(ManifestFile, AMissingFileOrADirectoryIsBadInput) {

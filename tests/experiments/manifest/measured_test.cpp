@@ -131,16 +131,16 @@ TEST(MeasuredCreep, CanBeSweptOverriddenAndCorrelated) {
 }
 
 TEST(MeasuredCreep, ReplacesAllConstantsAtOnce) {
-  EXPECT_TRUE(has_faults(refusal_of(with_creep("torque: 1, rate: 0.5, exponent: 2")),
-                         "6:39: friction.measured.creep.extension | missing | rad"));
-  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {lambda: 5, measured: {creep: {torque: 1, "
+  EXPECT_TRUE(has_faults(refusal_of(with_creep("torque: «1», rate: 0.5, exponent: 2")),
+                         "«»: friction.measured.creep.extension | missing | rad"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {lambda: «5», measured: {creep: {torque: 1, "
                                                      "extension: 1, rate: 1, exponent: 1}}}\n")),
-                         "6:20: friction.lambda | friction.measured.creep | other"));
+                         "«»: friction.lambda | friction.measured.creep | other"));
   EXPECT_TRUE(has_faults(refusal_of(with_creep("torque: 1, extension: 1, rate: 1, exponent: 1",
-                                               "sweep: {grid: {friction.n: [1, 2]}}\n")),
-                         "7:29: friction.n | friction.measured.creep | other"));
-  EXPECT_TRUE(has_faults(refusal_of(with_creep("torque: 1.0e-200, extension: 1, rate: 1, exponent: 2")),
-                         "6:39: friction.lambda | it is 0 | greater than 0"));
+                                               "sweep: {grid: {friction.n: [«1», 2]}}\n")),
+                         "«»: friction.n | friction.measured.creep | other"));
+  EXPECT_TRUE(has_faults(refusal_of(with_creep("torque: «1.0e-200», extension: 1, rate: 1, exponent: 2")),
+                         "«»: friction.lambda | it is 0 | greater than 0"));
   EXPECT_TRUE(says(refusal_of(with_creep("torque: 1, extension: 1, rate: 1, exponent: {profile: {mean: 2, "
                                          "cv: 0.1, correlation_length: 0.1}}")),
                    "cannot vary along the rotor"));
@@ -236,7 +236,7 @@ TEST(MeasuredSpringOfStudy, DiffersFromContactToContactInAllItsValues) {
 // Only their correlation makes these draws those of machines.
 TEST(MeasuredSpringOfStudy, IsCheckedByTheDrawsOfItsMachines) {
   const std::string values =
-      "initial_stiffness: {choice: [1500, 1600]}, final_stiffness: {log_uniform: [10, 1000]}, breakaway: "
+      "initial_stiffness: {choice: [1500, 1600]}, final_stiffness: «{log_uniform: [10, 1000]}», breakaway: "
       "{log_uniform: [0.03, 3]}, breakaway_travel: {choice: [1.99e-3, 2.0e-3]}";
   const study::Study study =
       study_of(with_spring(values,
@@ -248,7 +248,7 @@ TEST(MeasuredSpringOfStudy, IsCheckedByTheDrawsOfItsMachines) {
   const study::ParameterRange range = study::range_of_slot(*study.plan, beta, 0);
   EXPECT_TRUE(range.low > 0.0 && std::isfinite(range.high) && range.typical >= range.low);
   EXPECT_TRUE(has_faults(refusal_of(with_spring(values), {"trials=200"}),
-                         "6:83: friction.measured.final_stiffness | trial | of 200 trials"));
+                         "«»: friction.measured.final_stiffness | trial | of 200 trials"));
 }
 
 TEST(MeasuredSpringOfStudy, HasTheLowEndOfTheMeasuredValue) {
@@ -266,51 +266,54 @@ TEST(MeasuredSpringOfStudy, RefusesImpossibleValuesWithTheirNumbers) {
     return refusal_of(with_spring(values, more));
   };
   const std::string rest = ", breakaway: 0.3, breakaway_travel: 2.0e-3";
-  EXPECT_TRUE(
-      has_faults(refusal("initial_stiffness: 860, final_stiffness: 160" + rest),
-                 "6:64: friction.measured.final_stiffness | final_stiffness = 160 N m/rad is not below "
-                 "breakaway/breakaway_travel = 150 N m/rad | expected"));
-  EXPECT_TRUE(has_faults(refusal("initial_stiffness: 140, final_stiffness: 110" + rest),
-                         "6:80: friction.measured.breakaway | = 150 | = 140"));
-  EXPECT_TRUE(has_faults(refusal("secant_stiffness: 200, secant_travel: 3.0e-3, final_stiffness: 110" + rest),
-                         "6:61: friction.measured.secant_travel | = 0.003 rad | = 0.002 rad"));
-  EXPECT_TRUE(
-      has_faults(refusal("secant_stiffness: 1000, secant_travel: 2.0e-4, final_stiffness: 110" + rest),
-                 "6:41: friction.measured.secant_stiffness | = 0.398 N m | breakaway = 0.3 N m"));
+  EXPECT_TRUE(has_faults(refusal("initial_stiffness: 860, final_stiffness: «160»" + rest),
+                         "«»: friction.measured.final_stiffness | final_stiffness = 160 N m/rad is not below "
+                         "breakaway/breakaway_travel = 150 N m/rad | expected"));
   EXPECT_TRUE(has_faults(
-      refusal("initial_stiffness: 860, final_stiffness: {uniform: [100, 200]}" + rest, "machines: 2\n"),
-      "6:64: friction.measured.final_stiffness | machine | is not below"));
+      refusal("initial_stiffness: 140, final_stiffness: 110, breakaway: «0.3», breakaway_travel: 2.0e-3"),
+      "«»: friction.measured.breakaway | = 150 | = 140"));
+  EXPECT_TRUE(
+      has_faults(refusal("secant_stiffness: 200, secant_travel: «3.0e-3», final_stiffness: 110" + rest),
+                 "«»: friction.measured.secant_travel | = 0.003 rad | = 0.002 rad"));
+  EXPECT_TRUE(
+      has_faults(refusal("secant_stiffness: «1000», secant_travel: 2.0e-4, final_stiffness: 110" + rest),
+                 "«»: friction.measured.secant_stiffness | = 0.398 N m | breakaway = 0.3 N m"));
   EXPECT_TRUE(has_faults(
-      refusal("initial_stiffness: 860, final_stiffness: {lognormal: {median: 110, cv: 0.1}, per: contact}" +
+      refusal("initial_stiffness: 860, final_stiffness: «{uniform: [100, 200]}»" + rest, "machines: 2\n"),
+      "«»: friction.measured.final_stiffness | machine | is not below"));
+  EXPECT_TRUE(has_faults(
+      refusal("initial_stiffness: 860, final_stiffness: «{lognormal: {median: 110, cv: 0.1}, per: contact}»" +
               rest),
-      "6:64: friction.measured.final_stiffness | is not below"));
+      "«»: friction.measured.final_stiffness | is not below"));
   EXPECT_TRUE(
-      has_faults(refusal(by_initial, "sweep: {grid: {friction.measured.breakaway: [0.3, 0.2]}}\n"),
-                 "7:51: friction.measured.breakaway | final_stiffness = 110 | = 100 N m/rad at point 1"));
+      has_faults(refusal(by_initial, "sweep: {grid: {friction.measured.breakaway: [0.3, «0.2»]}}\n"),
+                 "«»: friction.measured.breakaway | final_stiffness = 110 | = 100 N m/rad at point 1"));
   EXPECT_TRUE(has_faults(
       refusal(
-          by_initial,
+          "initial_stiffness: 860, final_stiffness: «110»" + rest,
           "goal: {band: 1, within: 0.05, moves: 0.9}\ntune: {free: {friction.measured.final_stiffness: [100, "
           "200]}}\n"),
-      "6:64: friction.measured.final_stiffness | = 200 N m/rad"));
+      "«»: friction.measured.final_stiffness | = 200 N m/rad"));
 }
 
 TEST(MeasuredSpringOfStudy, ReplacesAllConstantsAtOnce) {
   const auto refusal = [](const std::string& values, const std::string& more = "") {
     return refusal_of(with_spring(values, more));
   };
-  EXPECT_TRUE(has_faults(refusal("final_stiffness: 110, breakaway: 0.3, breakaway_travel: 2.0e-3"),
-                         "6:40: friction.measured.initial_stiffness | missing | secant_stiffness"));
-  EXPECT_TRUE(has_faults(refusal("secant_stiffness: 200, final_stiffness: 110, breakaway: 0.3"),
-                         "6:41: friction.measured.secant_travel | missing\n"
-                         "6:41: friction.measured.breakaway_travel | missing"));
-  EXPECT_TRUE(has_faults(refusal(std::string("initial_stiffness: 860, ") + by_secant),
-                         "6:65: friction.measured.secant_stiffness | friction.measured.initial_stiffness"));
+  EXPECT_TRUE(has_faults(refusal("final_stiffness: «110», breakaway: 0.3, breakaway_travel: 2.0e-3"),
+                         "«»: friction.measured.initial_stiffness | missing | secant_stiffness"));
+  EXPECT_TRUE(has_faults(refusal("secant_stiffness: «200», final_stiffness: 110, breakaway: 0.3"),
+                         "«»: friction.measured.secant_travel | missing\n"
+                         "«»: friction.measured.breakaway_travel | missing"));
+  EXPECT_TRUE(has_faults(
+      refusal("initial_stiffness: 860, secant_stiffness: «200», secant_travel: 1.0e-4, final_stiffness: 110, "
+              "breakaway: 0.3, breakaway_travel: 2.0e-3"),
+      "«»: friction.measured.secant_stiffness | friction.measured.initial_stiffness"));
   EXPECT_TRUE(has_faults(refusal_of(with_spring(by_initial), {"friction.beta=1.0e+5"}),
                          "--set friction.beta=1.0e+5: friction.beta | friction.measured | other"));
   EXPECT_TRUE(
-      has_faults(refusal(by_secant, "sweep: {cases: {a: {friction.k1: 100}, b: {friction.k1: 110}}}\n"),
-                 "7:34: friction.k1 | friction.measured | other"));
+      has_faults(refusal(by_secant, "sweep: {cases: {a: {friction.k1: «100»}, b: {friction.k1: 110}}}\n"),
+                 "«»: friction.k1 | friction.measured | other"));
   for (const std::string model : {"coulomb", "dahl", "lugre", "gms", "none"}) {
     EXPECT_TRUE(says(
         refusal_of(minimal_manifest("friction: {model: " + model + ", measured: {" + by_initial + "}}\n")),

@@ -202,9 +202,9 @@ TEST(Interval, IsDrawnForEachWorldByDefault) {
 
 TEST(Worlds, WithoutADifferenceGetAWarning) {
   const auto warnings = [](const std::string& k1) {
-    return study_of(minimal_manifest("worlds: 5\nfriction: {k1: " + k1 + "}\n")).warnings;
+    return study_of(minimal_manifest("worlds: «5»\nfriction: {k1: " + k1 + "}\n")).warnings;
   };
-  EXPECT_TRUE(has_faults(warnings("{uniform: [90, 130]}"), "6:9: worlds | all alike | per: world"));
+  EXPECT_TRUE(has_faults(warnings("{uniform: [90, 130]}"), "«»: worlds | all alike | per: world"));
   EXPECT_EQ(warnings("{uniform: [90, 130], per: world}"), std::vector<std::string>{});
 }
 
@@ -222,26 +222,26 @@ TEST_P(RefusedWorlds, MessageGivesTheReason) {
 INSTANTIATE_TEST_SUITE_P(
     , RefusedWorlds,
     ::testing::Values(
-        WorldsRefusal{"worlds: 1", "6:9: worlds | '1'"},
-        WorldsRefusal{"friction: {k1: {uniform: [90, 130], per: world}}",
-                      "6:42: friction.k1.per | has no worlds | the key worlds"},
-        WorldsRefusal{"friction: {k1: {interval: [90, 130]}}",
-                      "6:16: friction.k1 | drawn for each world | the key worlds, or uniform"},
-        WorldsRefusal{"worlds: 5\nfriction: {k1: {interval: [90, 130], per: trial}}",
-                      "7:43: friction.k1.per | no distribution to draw from | world, or uniform"},
-        WorldsRefusal{"worlds: 5\nfriction: {k1: {interval: [130, 90]}}", "7:27: friction.k1.interval"},
-        WorldsRefusal{"worlds: 5\nfriction: {k1: {profile: {mean: {interval: [90, 130]}, cv: 0.1, "
+        WorldsRefusal{"worlds: «1»", "«»: worlds | '1'"},
+        WorldsRefusal{"friction: {k1: {uniform: [90, 130], per: «world»}}",
+                      "«»: friction.k1.per | has no worlds | the key worlds"},
+        WorldsRefusal{"friction: {k1: «{interval: [90, 130]}»}",
+                      "«»: friction.k1 | drawn for each world | the key worlds, or uniform"},
+        WorldsRefusal{"worlds: 5\nfriction: {k1: {interval: [90, 130], per: «trial»}}",
+                      "«»: friction.k1.per | no distribution to draw from | world, or uniform"},
+        WorldsRefusal{"worlds: 5\nfriction: {k1: {interval: «[130, 90]»}}", "«»: friction.k1.interval"},
+        WorldsRefusal{"worlds: 5\nfriction: {k1: {profile: {mean: «{interval: [90, 130]}», cv: 0.1, "
                       "correlation_length: 0.2}}}",
-                      "7:33: friction.k1.profile.mean | an interval is drawn for each world"},
+                      "«»: friction.k1.profile.mean | an interval is drawn for each world"},
         WorldsRefusal{"worlds: 5\nfriction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2}, "
-                      "per: world}}",
-                      "7:78: friction.k1.per | belongs to a rotor | study or machine"},
-        WorldsRefusal{"machines: 5\nworlds: 2\nfriction: {k1: {interval: [90, 130]}}",
-                      "7:9: worlds | 5 machines cannot be divided equally among 2 worlds | 4 or 6 machines"},
-        WorldsRefusal{"worlds: 11\nfriction: {k1: {interval: [90, 130]}}",
-                      "6:9: worlds | only 10 trials | at most 10"},
-        WorldsRefusal{"design: saltelli\nworlds: 5\nfriction: {k1: {interval: [90, 130]}}",
-                      "6:9: design | the trials of a world share factors | with worlds"}));
+                      "per: «world»}}",
+                      "«»: friction.k1.per | belongs to a rotor | study or machine"},
+        WorldsRefusal{"machines: 5\nworlds: «2»\nfriction: {k1: {interval: [90, 130]}}",
+                      "«»: worlds | 5 machines cannot be divided equally among 2 worlds | 4 or 6 machines"},
+        WorldsRefusal{"worlds: «11»\nfriction: {k1: {interval: [90, 130]}}",
+                      "«»: worlds | only 10 trials | at most 10"},
+        WorldsRefusal{"design: «saltelli»\nworlds: 5\nfriction: {k1: {interval: [90, 130]}}",
+                      "«»: design | the trials of a world share factors | with worlds"}));
 
 }  // namespace
 }  // namespace zerocount::manifest

@@ -44,13 +44,13 @@ TEST_F(Plausibility, WarnsOfANaturalFrequencyBelowTwoHertzOrAboveNyquist) {
     const double k2 = log_uniform(200, 2000);
     const double frequency = std::sqrt((k1 + k2) / inertia) / (2.0 * std::numbers::pi);
     const std::vector<std::string> warnings = warnings_of(fmt::format(
-        "plant: {{inertia: {:.17g}}}\nfriction: {{k1: {:.17g}, k2: {:.17g}}}\n", inertia, k1, k2));
+        "plant: {{inertia: «{:.17g}»}}\nfriction: {{k1: {:.17g}, k2: {:.17g}}}\n", inertia, k1, k2));
     if (frequency >= 2.0 && frequency <= 1000.0) {
       EXPECT_TRUE(warnings.empty()) << frequency << warnings.front();
       continue;
     }
     ++(frequency < 2.0 ? low : high);
-    EXPECT_TRUE(has_faults(warnings, fmt::format("6:18: plant.inertia | {:.3g} Hz | expected {}", frequency,
+    EXPECT_TRUE(has_faults(warnings, fmt::format("«»: plant.inertia | {:.3g} Hz | expected {}", frequency,
                                                  frequency < 2.0 ? "at least 2 Hz" : "less than half")));
   }
   EXPECT_GT(low, rounds / 20);
@@ -64,16 +64,16 @@ TEST_F(Plausibility, WarnsIfTheSpringDoesNotSoftenBeforeItSlides) {
     const double k1 = log_uniform(50, 500);
     const double softening = beta * travel_to(breakaway, k1, beta);
     const std::string friction =
-        fmt::format("beta: {:.17g}, breakaway: {:.17g}, k1: {:.17g}", beta, breakaway, k1);
+        fmt::format("beta: «{:.17g}», breakaway: {:.17g}, k1: {:.17g}", beta, breakaway, k1);
     const std::vector<std::string> warnings = warnings_of("friction: {" + friction + "}\n");
     if (softening >= 0.1) {
       EXPECT_TRUE(warnings.empty()) << softening;
     } else {
-      EXPECT_TRUE(has_faults(warnings, fmt::format("6:18: friction.beta | {:.3g} | /µrad", softening)));
+      EXPECT_TRUE(has_faults(warnings, fmt::format("«»: friction.beta | {:.3g} | /µrad", softening)));
     }
     // Without k2 there is nothing that softens (and beta has no effect, which is a warning of its own).
-    EXPECT_TRUE(has_faults(warnings_of("friction: {k2: 0, " + friction + "}\n"),
-                           fmt::format("6:25: friction.beta | no effect")));
+    EXPECT_TRUE(
+        has_faults(warnings_of("friction: {k2: 0, " + friction + "}\n"), "«»: friction.beta | no effect"));
   }
 }
 
@@ -81,7 +81,7 @@ TEST_F(Plausibility, WarnsIfTheSpringDoesNotSoftenBeforeItSlides) {
 TEST_F(Plausibility, WarnsIfAMeasuredSpringIsALineOrAStep) {
   const auto warnings = [](double initial, double inertia) {
     return warnings_of(fmt::format(
-        "friction: {{measured: {{initial_stiffness: {:.17g}, final_stiffness: 100, breakaway: 0.3, "
+        "friction: {{measured: {{initial_stiffness: «{:.17g}», final_stiffness: 100, breakaway: 0.3, "
         "breakaway_travel: 2.0e-3}}}}\nplant: {{inertia: {}}}\n",
         initial, inertia));
   };
@@ -91,15 +91,14 @@ TEST_F(Plausibility, WarnsIfAMeasuredSpringIsALineOrAStep) {
     if (ratio <= -std::expm1(-0.2) / 0.2) {
       EXPECT_TRUE(line.empty()) << ratio;
     } else {
-      EXPECT_TRUE(
-          has_faults(line, "6:42: friction.measured.initial_stiffness | before it softens | stiffer"));
+      EXPECT_TRUE(has_faults(line, "«»: friction.measured.initial_stiffness | before it softens | stiffer"));
     }
     const double initial = log_uniform(1e5, 1e7);
     const std::vector<std::string> step = warnings(initial, 10.0);
     if (initial <= 1e4 * 150.0) {
       EXPECT_TRUE(step.empty()) << initial;
     } else {
-      EXPECT_TRUE(has_faults(step, fmt::format("6:42: friction.measured.initial_stiffness | {:.4g} N m/rad | "
+      EXPECT_TRUE(has_faults(step, fmt::format("«»: friction.measured.initial_stiffness | {:.4g} N m/rad | "
                                                "{:.3g} times",
                                                initial, initial / 150.0)));
     }
@@ -110,14 +109,14 @@ TEST_F(Plausibility, WarnsOfADelayThatIsNotInSamples) {
   for (int i = 0; i < rounds; ++i) {
     const double delay = log_uniform(1e-6, 100);
     const std::vector<std::string> warnings =
-        warnings_of(fmt::format("controller: {{delay: {:.17g}}}\n", delay));
+        warnings_of(fmt::format("controller: {{delay: «{:.17g}»}}\n", delay));
     if (delay >= 0.01 && delay <= 20.0) {
       EXPECT_TRUE(warnings.empty()) << delay;
     } else if (delay > 20.0) {
-      EXPECT_TRUE(has_faults(warnings, fmt::format("6:21: controller.delay | {:.6g} µs are {:.6g} samples",
-                                                   delay, 2e-3 * delay)));
+      EXPECT_TRUE(has_faults(
+          warnings, fmt::format("«»: controller.delay | {:.6g} µs are {:.6g} samples", delay, 2e-3 * delay)));
     } else {
-      EXPECT_TRUE(has_faults(warnings, fmt::format("6:21: controller.delay | {:.6g} s are {:.6g} samples",
+      EXPECT_TRUE(has_faults(warnings, fmt::format("«»: controller.delay | {:.6g} s are {:.6g} samples",
                                                    delay, 2000.0 * delay)));
     }
   }
@@ -131,13 +130,13 @@ TEST_F(Plausibility, WarnsIfTheSpringYieldsByAFewCountsOnly) {
     const int fine = static_cast<int>(log_uniform(1000, 5e6));
     const double counts = travel_to(breakaway, k1, 1e7) / (2.0 * std::numbers::pi / fine);
     const std::vector<std::string> warnings = warnings_of(
-        fmt::format("friction: {{breakaway: {:.17g}, k1: {:.17g}, beta: 1.0e+7}}\nencoder: {{fine: {}}}\n",
+        fmt::format("friction: {{breakaway: «{:.17g}», k1: {:.17g}, beta: 1.0e+7}}\nencoder: {{fine: {}}}\n",
                     breakaway, k1, fine));
     if (counts >= 5.0) {
       EXPECT_TRUE(warnings.empty()) << counts;
     } else {
       EXPECT_TRUE(
-          has_faults(warnings, fmt::format("6:23: friction.breakaway | {:.3g} counts | at least 5", counts)));
+          has_faults(warnings, fmt::format("«»: friction.breakaway | {:.3g} counts | at least 5", counts)));
     }
   }
 }
@@ -149,12 +148,12 @@ TEST_F(Plausibility, WarnsIfOneCountExceedsTheRangeOfTheConverter) {
     const std::string dac = fmt::format("dac: {{range: {:.17g}}}\n", range);
     for (const char* const key : {"kp", "ki", "kd"}) {
       const std::vector<std::string> warnings =
-          warnings_of(fmt::format("controller: {{{}: {:.17g}}}\n{}", key, gain, dac));
+          warnings_of(fmt::format("controller: {{{}: «{:.17g}»}}\n{}", key, gain, dac));
       if (gain <= range) {
         EXPECT_TRUE(warnings.empty());
       } else {
         EXPECT_TRUE(has_faults(
-            warnings, fmt::format("6:18: controller.{} | {:.3g} N m | say controller.units: si", key, gain)));
+            warnings, fmt::format("«»: controller.{} | {:.3g} N m | say controller.units: si", key, gain)));
       }
     }
   }
@@ -181,23 +180,23 @@ TEST_F(Plausibility, WarnsIfOneCountExceedsTheRangeWithGainsInSiUnits) {
 // Tails are not typical, and neither is one point of many, unless it is absurd itself.
 TEST_F(Plausibility, ChecksTheMedianAtEveryPoint) {
   EXPECT_TRUE(warnings_of("plant: {inertia: {lognormal: {median: 5.0e-4, cv: 2}}}\n").empty());
-  EXPECT_TRUE(has_faults(warnings_of("plant: {inertia: {lognormal: {median: 8, cv: 0.1}}}\n"),
-                         "6:18: plant.inertia | 1.65 Hz"));
+  EXPECT_TRUE(has_faults(warnings_of("plant: {inertia: «{lognormal: {median: 8, cv: 0.1}}»}\n"),
+                         "«»: plant.inertia | 1.65 Hz"));
   EXPECT_TRUE(has_faults(
-      warnings_of("friction: {k1: {profile: {mean: 1.0e+7, cv: 0.1, correlation_length: 0.2}}}\n"),
-      "6:16: friction.k1 | Hz\n6:16: friction.k1 | pre-sliding range\n6:16: friction.k1 | 0.00773 counts"));
+      warnings_of("friction: {k1: «{profile: {mean: 1.0e+7, cv: 0.1, correlation_length: 0.2}}»}\n"),
+      "«»: friction.k1 | Hz\n«»: friction.k1 | pre-sliding range\n«»: friction.k1 | 0.00773 counts"));
   // Told once, at the first point that is absurd.
-  EXPECT_TRUE(has_faults(warnings_of("sweep: {grid: {plant.inertia: [5.0e-4, 8, 9]}}\n"),
-                         "6:40: plant.inertia | 8 kg m^2"));
+  EXPECT_TRUE(has_faults(warnings_of("sweep: {grid: {plant.inertia: [5.0e-4, «8», 9]}}\n"),
+                         "«»: plant.inertia | 8 kg m^2"));
 }
 
 TEST_F(Plausibility, ChecksOnlyTheParametersOfTheLaw) {
   EXPECT_TRUE(warnings_of("plant: {inertia: 8}\nfriction: {model: coulomb}\n").empty());
-  EXPECT_TRUE(has_faults(warnings_of("plant: {inertia: 8}\nfriction: {model: lugre}\n"),
-                         "6:18: plant.inertia | sigma0"));
+  EXPECT_TRUE(has_faults(warnings_of("plant: {inertia: «8»}\nfriction: {model: lugre}\n"),
+                         "«»: plant.inertia | sigma0"));
   EXPECT_TRUE(warnings_of("controller: {structure: cascade, cascade: {kv: 10, kp: 1, ki: 1}}\n").empty());
-  EXPECT_TRUE(has_faults(warnings_of("controller: {coarse: {coarse_beyond: 1000, kp: 3}}\n"),
-                         "6:48: controller.coarse.kp | 3 N m"));
+  EXPECT_TRUE(has_faults(warnings_of("controller: {coarse: {coarse_beyond: 1000, kp: «3»}}\n"),
+                         "«»: controller.coarse.kp | 3 N m"));
 }
 
 // What a study says of each effect that a real axis has: it acts, it is stated to be absent, or it is assumed

@@ -12,27 +12,27 @@ std::string refused(const std::string& command, const std::string& more = "") {
 }
 
 TEST(Command, TakesExactlyOneForm) {
-  EXPECT_TRUE(has_faults(refused("{hold: 1}"), "5:10: command | exactly one of"));
+  EXPECT_TRUE(has_faults(refused("«{hold: 1}»"), "«»: command | exactly one of"));
   EXPECT_TRUE(
-      has_faults(refused("{targets: [1], torque: {levels: [0.1]}}"), "5:25: command.torque | already"));
-  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 2], overrun: 1}, hold: 1, targets: [1]}"),
-                         "5:61: command.targets | already"));
-  EXPECT_TRUE(has_faults(refused("{torque: {levels: [0.1]}, targets: [1], sequence: {cycles: 0}}"),
-                         "5:36: command.targets | already"));
+      has_faults(refused("{targets: [1], «torque»: {levels: [0.1]}}"), "«»: command.torque | already"));
+  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 2], overrun: 1}, hold: 1, «targets»: [1]}"),
+                         "«»: command.targets | already"));
+  EXPECT_TRUE(has_faults(refused("{torque: {levels: [0.1]}, «targets»: [1], sequence: {cycles: 0}}"),
+                         "«»: command.targets | already"));
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(), {"command.torque.levels=[0.1]"}),
                          "--set command.torque.levels=[0.1]: command.torque | already"));
-  EXPECT_TRUE(has_faults(refused("{targets: [1], torque: {levels: [no], rate: 0}, hold: 1}"),
-                         "5:25: command.torque | already"));
-  EXPECT_TRUE(has_faults(refused("[1]"), "5:10: command | a list"));
+  EXPECT_TRUE(has_faults(refused("{targets: [1], «torque»: {levels: [no], rate: 0}, hold: 1}"),
+                         "«»: command.torque | already"));
+  EXPECT_TRUE(has_faults(refused("«[1]»"), "«»: command | a list"));
 }
 
 TEST(Command, FormsAreComplete) {
-  EXPECT_TRUE(has_faults(refused("{torque: {rate: 0.2}}"), "5:19: command.torque.levels | missing"));
-  EXPECT_TRUE(has_faults(refused("{sequence: {cycles: 2}}"),
-                         "5:21: command.sequence.targets | missing\n"
-                         "5:21: command.sequence.overrun | missing"));
-  EXPECT_TRUE(has_faults(refused("{torque: [0.1]}"), "5:19: command.torque | a list"));
-  EXPECT_TRUE(has_faults(refused("{torque: {levels: []}}"), "5:28: command.torque.levels | list of 0"));
+  EXPECT_TRUE(has_faults(refused("{torque: «{rate: 0.2}»}"), "«»: command.torque.levels | missing"));
+  EXPECT_TRUE(has_faults(refused("{sequence: «{cycles: 2}»}"),
+                         "«»: command.sequence.targets | missing\n"
+                         "«»: command.sequence.overrun | missing"));
+  EXPECT_TRUE(has_faults(refused("{torque: «[0.1]»}"), "«»: command.torque | a list"));
+  EXPECT_TRUE(has_faults(refused("{torque: {levels: «[]»}}"), "«»: command.torque.levels | list of 0"));
 }
 
 TEST(Command, TorqueLevelsAreMovesWithoutTargets) {
@@ -74,16 +74,17 @@ TEST(Command, TorqueLevelsAreSwept) {
 }
 
 TEST(Command, OnlyTheFormInUseCanBeSwept) {
-  EXPECT_TRUE(has_faults(refused("{torque: {levels: [0.1]}}", "sweep: {grid: {command.targets.0: [1]}}"),
-                         "6:16: sweep.grid.command.targets.0 | the study has no"));
+  EXPECT_TRUE(has_faults(refused("{torque: {levels: [0.1]}}", "sweep: {grid: {«command.targets.0»: [1]}}"),
+                         "«»: sweep.grid.command.targets.0 | the study has no"));
   EXPECT_TRUE(
-      has_faults(refused("{torque: {levels: [0.1]}}", "sweep: {grid: {command.torque.levels.1: [1]}}"),
-                 "6:16: sweep.grid.command.torque.levels.1 | an index from 0 to 0"));
-  EXPECT_TRUE(has_faults(refused("{targets: [1]}", "sweep: {cases: {a: {command.sequence.targets: [1, 2]}}}"),
-                         "6:21: sweep.cases.a.command.sequence.targets | the study has no"));
+      has_faults(refused("{torque: {levels: [0.1]}}", "sweep: {grid: {«command.torque.levels.1»: [1]}}"),
+                 "«»: sweep.grid.command.torque.levels.1 | an index from 0 to 0"));
   EXPECT_TRUE(
-      has_faults(refused("{torque: {levels: [0.1]}}", "sweep: {grid: {command.torque.levels: [[1, 2]]}}"),
-                 "6:40: sweep.grid.command.torque.levels.0 | list of 2 levels"));
+      has_faults(refused("{targets: [1]}", "sweep: {cases: {a: {«command.sequence.targets»: [1, 2]}}}"),
+                 "«»: sweep.cases.a.command.sequence.targets | the study has no"));
+  EXPECT_TRUE(
+      has_faults(refused("{torque: {levels: [0.1]}}", "sweep: {grid: {command.torque.levels: [«[1, 2]»]}}"),
+                 "«»: sweep.grid.command.torque.levels.0 | list of 2 levels"));
 }
 
 TEST(Command, ASequenceIsExpandedIntoMoves) {
@@ -140,30 +141,30 @@ TEST(Command, TheOverrunIsAParameterLikeAnyOther) {
 
 TEST(Command, TheShapeOfASequenceIsTheSameEverywhere) {
   const std::string sequence = "{sequence: {targets: [1, 5], overrun: 2}}";
-  EXPECT_TRUE(has_faults(refused(sequence, "sweep: {grid: {command.sequence.cycles: [1, 2]}}"),
-                         "6:16: sweep.grid.command.sequence.cycles | cannot be swept"));
-  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 5], overrun: 2, cycles: {integers: [1, 2]}}}"),
-                         "5:59: command.sequence.cycles | a map"));
-  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 5], overrun: 2, approach: both}}"),
-                         "5:61: command.sequence.approach | 'both'"));
-  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 5], overrun: 0}}"),
-                         "5:48: command.sequence.overrun | from 1 to 1000000000000"));
-  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 5], overrun: 2, cycles: 20000}}"),
-                         "5:21: command.sequence | 100000 moves"));
+  EXPECT_TRUE(has_faults(refused(sequence, "sweep: {grid: {«command.sequence.cycles»: [1, 2]}}"),
+                         "«»: sweep.grid.command.sequence.cycles | cannot be swept"));
+  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 5], overrun: 2, cycles: «{integers: [1, 2]}»}}"),
+                         "«»: command.sequence.cycles | a map"));
+  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 5], overrun: 2, approach: «both»}}"),
+                         "«»: command.sequence.approach | 'both'"));
+  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 5], overrun: «0»}}"),
+                         "«»: command.sequence.overrun | from 1 to 1000000000000"));
+  EXPECT_TRUE(has_faults(refused("{sequence: «{targets: [1, 5], overrun: 2, cycles: 20000}»}"),
+                         "«»: command.sequence | 100000 moves"));
   EXPECT_EQ(study_of(manifest_commanding(sequence), {"command.sequence.cycles=1"}).moves, 6);
 }
 
 TEST(Command, TheTargetsOfASequenceAscendInEveryTrial) {
-  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 5, 5], overrun: 2}}"),
-                         "5:38: command.sequence.targets.2 | ascending"));
+  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 5, «5»], overrun: 2}}"),
+                         "«»: command.sequence.targets.2 | ascending"));
   EXPECT_TRUE(
-      has_faults(refused("{sequence: {targets: [{integers: [1, 9]}, {integers: [9, 20]}], overrun: 2}}"),
-                 "5:52: command.sequence.targets.1 | ascending"));
+      has_faults(refused("{sequence: {targets: [{integers: [1, 9]}, «{integers: [9, 20]}»], overrun: 2}}"),
+                 "«»: command.sequence.targets.1 | ascending"));
   EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 10], overrun: 2}}",
-                                 "sweep: {grid: {command.sequence.targets.0: [5, 12]}}"),
-                         "6:48: command.sequence.targets.1 | ascending"));
-  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 10], overrun: 1000000000000}}"),
-                         "5:49: command.sequence.overrun | 1000000000010"));
+                                 "sweep: {grid: {command.sequence.targets.0: [5, «12»]}}"),
+                         "«»: command.sequence.targets.1 | ascending"));
+  EXPECT_TRUE(has_faults(refused("{sequence: {targets: [1, 10], overrun: «1000000000000»}}"),
+                         "«»: command.sequence.overrun | 1000000000010"));
 }
 
 TEST(Command, ListsShareTheSobolDimensionsButNotTheDraws) {

@@ -55,8 +55,8 @@ TEST(ControllerBlocks, NoneSwitchesALimitOff) {
   EXPECT_EQ(controller.coarse.coarse_beyond, unlimited);
   EXPECT_EQ(controller_of("controller: {deadband: {enter: 1, leave: none}}").blocks.deadband.enter, 1.0);
   EXPECT_EQ(controller_of("controller: {integrator_zone: 1.0e+12}").blocks.integrator_zone, unlimited);
-  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {kp: none}")),
-                         "6:18: controller.kp | is not a number"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {kp: «none»}")),
+                         "«»: controller.kp | is not a number"));
 }
 
 TEST(ControllerBlocks, DeadbandIsSweptAndDrawnInItsShortForm) {
@@ -76,13 +76,13 @@ TEST(ControllerBlocks, DeadbandIsSweptAndDrawnInItsShortForm) {
             "controller.deadband.enter");
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {deadband: 1}\n"
                                                      "sweep: {grid: {controller.deadband: [1, 2], "
-                                                     "controller.deadband.enter: [3]}}")),
-                         "7:45: sweep.grid.controller.deadband.enter | is swept twice"));
+                                                     "«controller.deadband.enter»: [3]}}")),
+                         "«»: sweep.grid.controller.deadband.enter | is swept twice"));
 }
 
 TEST(ControllerBlocks, AWrongKeyOfTheDeadbandIsRefusedWithItsKeys) {
-  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {deadband: {entr: 1}}")),
-                         "6:25: controller.deadband.entr | enter"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {deadband: {«entr»: 1}}")),
+                         "«»: controller.deadband.entr | enter"));
 }
 
 // The parameters of a user's controller in manifests, without its library: a description is enough.
@@ -99,11 +99,11 @@ PluginLoader two_parameters() {
 }
 
 study::Study study_with_plugin(const std::string& more, const std::vector<std::string>& overrides = {}) {
-  return manifest::parse_study(minimal_manifest(more), "m.yaml", overrides, {.plugin = two_parameters()});
+  return study_of(minimal_manifest(more), overrides, {.plugin = two_parameters()});
 }
 
 std::string refusal_with_plugin(const std::string& more, const PluginLoader& load = two_parameters()) {
-  return refusal_by([&] { manifest::parse_study(minimal_manifest(more), "m.yaml", {}, {.plugin = load}); });
+  return refusal_of(minimal_manifest(more), {}, {.plugin = load});
 }
 
 const std::string own = "controller: {plugin: own.so, parameters: {gain: {uniform: [1, 5]}}}\n";
@@ -163,28 +163,28 @@ TEST(PluginParameters, AnotherLibraryChangesTheHashOfTheStudy) {
 
 TEST(PluginParameters, ErrorsNameThePlace) {
   const std::vector<std::pair<std::string, std::string>> refusals{
-      {"controller: {plugin: own.so, parameters: {gian: 1}}", "6:43: controller.parameters.gian | gain"},
-      {"controller: {plugin: own.so, parameters: {gain: 11}}",
-       "6:49: controller.parameters.gain | at least 0 and at most 10"},
-      {"controller: {plugin: own.so, parameters: 3}", "6:42: controller.parameters | '3'"},
-      {"controller: {parameters: {gain: 1}}", "6:26: controller.parameters | controller.plugin"},
-      {"controller: {plugin: own.so, kp: 1.0e-4}", "6:34: controller.kp | no effect | controller.parameters"},
-      {"controller: {plugin: own.so, coarse: {coarse_beyond: 200}}",
-       "6:54: controller.coarse.coarse_beyond | has no phases"},
-      {"controller: {plugin: [own.so]}", "6:22: controller.plugin | a list"},
-      {"controller: {plugin: own.so}\nsweep: {grid: {controller.parameters.gian: [1]}}",
-       "7:16: sweep.grid.controller.parameters.gian | controller.parameters.gain"},
+      {"controller: {plugin: own.so, parameters: {«gian»: 1}}", "«»: controller.parameters.gian | gain"},
+      {"controller: {plugin: own.so, parameters: {gain: «11»}}",
+       "«»: controller.parameters.gain | at least 0 and at most 10"},
+      {"controller: {plugin: own.so, parameters: «3»}", "«»: controller.parameters | '3'"},
+      {"controller: {parameters: «{gain: 1}»}", "«»: controller.parameters | controller.plugin"},
+      {"controller: {plugin: own.so, kp: «1.0e-4»}", "«»: controller.kp | no effect | controller.parameters"},
+      {"controller: {plugin: own.so, coarse: {coarse_beyond: «200»}}",
+       "«»: controller.coarse.coarse_beyond | has no phases"},
+      {"controller: {plugin: «[own.so]»}", "«»: controller.plugin | a list"},
+      {"controller: {plugin: own.so}\nsweep: {grid: {«controller.parameters.gian»: [1]}}",
+       "«»: sweep.grid.controller.parameters.gian | controller.parameters.gain"},
   };
   for (const auto& [text, message] : refusals) EXPECT_TRUE(has_faults(refusal_with_plugin(text), message));
-  EXPECT_TRUE(has_faults(refusal_with_plugin("controller: {plugin: own.so}", {}),
-                         "6:22: controller.plugin | this command does not"));
+  EXPECT_TRUE(has_faults(refusal_with_plugin("controller: {plugin: «own.so»}", {}),
+                         "«»: controller.plugin | this command does not"));
 }
 
 TEST(PluginParameters, APluginCountsAsAController) {
-  const std::string text = manifest_commanding("{torque: {levels: [0.1]}}", "controller: {plugin: own.so}\n");
-  EXPECT_TRUE(
-      has_faults(refusal_by([&] { manifest::parse_study(text, "m.yaml", {}, {.plugin = two_parameters()}); }),
-                 "6:22: controller.plugin | no effect | command.targets"));
+  const std::string text =
+      manifest_commanding("{torque: {levels: [0.1]}}", "controller: {plugin: «own.so»}\n");
+  EXPECT_TRUE(has_faults(refusal_of(text, {}, {.plugin = two_parameters()}),
+                         "«»: controller.plugin | no effect | command.targets"));
 }
 
 // Values in lists of the manifest other than that of the moves: elements of friction, and filters.
@@ -350,34 +350,34 @@ struct Refusal {
 
 TEST(Lists, ErrorsNameThePlace) {
   const std::vector<Refusal> refusals{
-      {"controller: {filters: 3}", "6:23: controller.filters | '3'"},
-      {"controller: {filters: [{nocth: {}}]}", "6:25: controller.filters.0.nocth | unknown filter"},
-      {"controller: {filters: [{}]}", "6:24: controller.filters.0 | map with 0 keys"},
-      {"controller: {filters: [{lead: {frequency: 10}}]}", "6:31: controller.filters.0.lead.ratio | missing"},
-      {"controller: {filters: [{lead: {frequency: 10, ratio: -1}}]}",
-       "6:54: controller.filters.0.lead.ratio | greater than 0"},
-      {"controller: {filters: [{biquad: {b: [1, 2], a: [0, 0]}}]}",
-       "6:37: controller.filters.0.biquad.b | list of 2"},
-      {"controller: {filters: [{lead: {frequency: {uniform: [10, 1000]}, ratio: 4}}]}",
-       "6:43: controller.filters.0.frequency | half the sample rate"},
-      {"controller: {filters: [{lead: {frequency: 10, ratio: {profile: {mean: 1, cv: 0.1, "
+      {"controller: {filters: «3»}", "«»: controller.filters | '3'"},
+      {"controller: {filters: [{«nocth»: {}}]}", "«»: controller.filters.0.nocth | unknown filter"},
+      {"controller: {filters: [«{}»]}", "«»: controller.filters.0 | map with 0 keys"},
+      {"controller: {filters: [{lead: «{frequency: 10}»}]}", "«»: controller.filters.0.lead.ratio | missing"},
+      {"controller: {filters: [{lead: {frequency: 10, ratio: «-1»}}]}",
+       "«»: controller.filters.0.lead.ratio | greater than 0"},
+      {"controller: {filters: [{biquad: {b: «[1, 2]», a: [0, 0]}}]}",
+       "«»: controller.filters.0.biquad.b | list of 2"},
+      {"controller: {filters: [{lead: {frequency: «{uniform: [10, 1000]}», ratio: 4}}]}",
+       "«»: controller.filters.0.frequency | half the sample rate"},
+      {"controller: {filters: [{lead: {frequency: 10, ratio: {profile: «{mean: 1, cv: 0.1, "
        "correlation_length: "
-       "1}}}}]}",
-       "6:64: controller.filters.0.lead.ratio.profile | along the rotor"},
-      {"friction: {gms: {stiffness: [1, 2], weight: [1]}}", "6:30: friction.gms.stiffness.0 | 2 stiffnesses"},
-      {"friction: {gms: {stiffness: [1, 2], weight: [0.5, 0.4]}}", "6:46: friction.gms.weight.0 | 0.9"},
-      {"sweep: {grid: {controller.filters.0.frequency: [1]}}",
-       "6:16: sweep.grid.controller.filters.0.frequency | the study has no"},
-      {"sweep: {grid: {friction.gms.weight.0: [1]}}",
-       "6:16: sweep.grid.friction.gms.weight.0 | the study has no"},
-      {"sweep: {grid: {controller.filters: [[]]}}", "6:16: sweep.grid.controller.filters | cannot be swept"},
+       "1}»}}}]}",
+       "«»: controller.filters.0.lead.ratio.profile | along the rotor"},
+      {"friction: {gms: {stiffness: [«1», 2], weight: [1]}}", "«»: friction.gms.stiffness.0 | 2 stiffnesses"},
+      {"friction: {gms: {stiffness: [1, 2], weight: [«0.5», 0.4]}}", "«»: friction.gms.weight.0 | 0.9"},
+      {"sweep: {grid: {«controller.filters.0.frequency»: [1]}}",
+       "«»: sweep.grid.controller.filters.0.frequency | the study has no"},
+      {"sweep: {grid: {«friction.gms.weight.0»: [1]}}",
+       "«»: sweep.grid.friction.gms.weight.0 | the study has no"},
+      {"sweep: {grid: {«controller.filters»: [[]]}}", "«»: sweep.grid.controller.filters | cannot be swept"},
   };
   for (const Refusal& refusal : refusals)
     EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(refusal.line)), refusal.message));
   EXPECT_TRUE(
       has_faults(refusal_of(minimal_manifest("controller: {filters: [{lead: {frequency: 10, ratio: 4}}]}\n"
-                                             "sweep: {grid: {controller.filters.0.depth: [1]}}")),
-                 "7:16: sweep.grid.controller.filters.0.depth | the study has no"));
+                                             "sweep: {grid: {«controller.filters.0.depth»: [1]}}")),
+                 "«»: sweep.grid.controller.filters.0.depth | the study has no"));
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(filters), {"controller.filters.1.depth=1"}),
                          "--set controller.filters.1.depth=1: controller.filters.1.depth | 'depth'"));
 }

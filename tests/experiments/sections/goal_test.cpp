@@ -120,7 +120,8 @@ const char* nine_tolerances() {
   static const std::string goal = [] {
     std::string limits;
     for (int i = 1; i <= 9; ++i)
-      limits += fmt::format("{}\"tolerance_settling_time[{}]\": 1", i == 1 ? "" : ", ", i);
+      limits +=
+          fmt::format("{}\"tolerance_settling_time[{}]\": {}", i == 1 ? "" : ", ", i, i < 9 ? "1" : "«1»");
     return "goal: {within: 0.1, moves: 0.9, limits: {" + limits + "}}";
   }();
   return goal.c_str();
@@ -135,54 +136,54 @@ TEST_P(RefusedGoal, MessageGivesTheReason) {
 INSTANTIATE_TEST_SUITE_P(
     , RefusedGoal,
     testing::Values(
-        GoalRefusal{"goal: 3", "6:7: goal | '3'"},
-        GoalRefusal{"goal: {within: 0.1}", "6:7: goal.moves | missing"},
-        GoalRefusal{"goal: {moves: 0.9}", "6:7: goal.within | missing"},
-        GoalRefusal{"goal: {within: 0.1, after_profile: 0.1, moves: 0.9}", "6:36: goal.after_profile | too"},
-        GoalRefusal{"goal: {after_profile: 9, moves: 0.9}",
-                    "6:23: goal.after_profile | longer than the hold"},
+        GoalRefusal{"goal: «3»", "«»: goal | '3'"},
+        GoalRefusal{"goal: «{within: 0.1}»", "«»: goal.moves | missing"},
+        GoalRefusal{"goal: «{moves: 0.9}»", "«»: goal.within | missing"},
+        GoalRefusal{"goal: {within: 0.1, after_profile: «0.1», moves: 0.9}", "«»: goal.after_profile | too"},
+        GoalRefusal{"goal: {after_profile: «9», moves: 0.9}",
+                    "«»: goal.after_profile | longer than the hold"},
         GoalRefusal{
-            "goal: {after_profile: 0.1, moves: 0.9}\nsweep: {grid: {command.profile.shape: [step, sine]}}",
-            "6:7: goal | no end\n7:46: command.hold | two periods"},
-        GoalRefusal{"goal: {after_profile: 0, moves: 0.9}", "6:23: goal.after_profile | '0'"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, of: load}", "6:37: goal.of | one mass"},
+            "goal: «{after_profile: 0.1, moves: 0.9}»\nsweep: {grid: {command.profile.shape: [step, «sine»]}}",
+            "«1»: goal | no end\n«2»: command.hold | two periods"},
+        GoalRefusal{"goal: {after_profile: «0», moves: 0.9}", "«»: goal.after_profile | '0'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, of: «load»}", "«»: goal.of | one mass"},
         GoalRefusal{
-            "goal: {within: 0.1, moves: 0.9, of: load}\nplant: {load: {inertia: 1, stiffness: 1.0e+4}}",
-            "6:37: goal.of | a band"},
-        GoalRefusal{"goal: {within: 0.1, moves: 1}", "6:28: goal.moves | '1'"},
-        GoalRefusal{"goal: {within: 9, moves: 0.9}", "6:16: goal.within | longer than the hold"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, machines: 0.9}",
-                    "6:43: goal.machines | without machines"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, band: -1}", "6:39: goal.band | '-1'"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, bond: 1}", "6:33: goal.bond | unknown key"},
-        GoalRefusal{"verdict: {bands: [1, 1]}", "6:22: verdict.bands.1 | not above 1"},
-        GoalRefusal{"verdict: {bands: [0.5]}", "6:19: verdict.bands.0 | '0.5'"},
-        GoalRefusal{"verdict: {bands: []}", "6:18: verdict.bands | the list is empty"},
-        GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7, 8]}", "6:18: verdict.bands | a list of 9"},
-        GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7]}\ngoal: {band: 9, within: 0.1, moves: 0.9}",
-                    "7:7: goal | one too many"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9}\ngoals: {a: {within: 0.1, moves: 0.9}}",
-                    "7:8: goals | `goal`"},
-        GoalRefusal{"goals: {}", "6:8: goals | no goal"},
-        GoalRefusal{"goals: {a: {within: 0.1, moves: 2}}", "6:33: goals.a.moves | '2'"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, tolerance: 0}", "6:44: goal.tolerance | '0'"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, tolerance: 1.0e-6, band: 1}",
-                    "6:58: goal.band | tolerance"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: [7]}", "6:38: goal.on.0 | '7'"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: [0, 0]}", "6:41: goal.on.1 | twice"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: []}", "6:37: goal.on | empty"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {overshot: 1}}",
-                    "6:52: goal.limits.overshot | no measure"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {\"tolerance_settling_time[0]\": 1}}",
-                    "6:72: goal.limits.tolerance_settling_time[0] | above 0"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {tolerance_settling_time: 1}}",
-                    "6:67: goal.limits.tolerance_settling_time | no measure"},
-        GoalRefusal{nine_tolerances(), "6:336: goal.limits.tolerance_settling_time[9] | one too many"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {rest_error_rms: 1}}",
-                    "6:58: goal.limits.rest_error_rms | not measured"},
-        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {overshoot: -1}}",
-                    "6:53: goal.limits.overshoot | '-1'"},
-        GoalRefusal{"sweep: {grid: {verdict.bands: [[0], [1]]}}", "6:16: sweep.grid.verdict.bands | swept"}));
+            "goal: {within: 0.1, moves: 0.9, of: «load»}\nplant: {load: {inertia: 1, stiffness: 1.0e+4}}",
+            "«»: goal.of | a band"},
+        GoalRefusal{"goal: {within: 0.1, moves: «1»}", "«»: goal.moves | '1'"},
+        GoalRefusal{"goal: {within: «9», moves: 0.9}", "«»: goal.within | longer than the hold"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, machines: «0.9»}",
+                    "«»: goal.machines | without machines"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, band: «-1»}", "«»: goal.band | '-1'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, «bond»: 1}", "«»: goal.bond | unknown key"},
+        GoalRefusal{"verdict: {bands: [1, «1»]}", "«»: verdict.bands.1 | not above 1"},
+        GoalRefusal{"verdict: {bands: [«0.5»]}", "«»: verdict.bands.0 | '0.5'"},
+        GoalRefusal{"verdict: {bands: «[]»}", "«»: verdict.bands | the list is empty"},
+        GoalRefusal{"verdict: {bands: «[0, 1, 2, 3, 4, 5, 6, 7, 8]»}", "«»: verdict.bands | a list of 9"},
+        GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7]}\ngoal: «{band: 9, within: 0.1, moves: 0.9}»",
+                    "«»: goal | one too many"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9}\ngoals: «{a: {within: 0.1, moves: 0.9}}»",
+                    "«»: goals | `goal`"},
+        GoalRefusal{"goals: «{}»", "«»: goals | no goal"},
+        GoalRefusal{"goals: {a: {within: 0.1, moves: «2»}}", "«»: goals.a.moves | '2'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, tolerance: «0»}", "«»: goal.tolerance | '0'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, tolerance: 1.0e-6, band: «1»}",
+                    "«»: goal.band | tolerance"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: [«7»]}", "«»: goal.on.0 | '7'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: [0, «0»]}", "«»: goal.on.1 | twice"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: «[]»}", "«»: goal.on | empty"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {overshot: «1»}}",
+                    "«»: goal.limits.overshot | no measure"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {\"tolerance_settling_time[0]\": «1»}}",
+                    "«»: goal.limits.tolerance_settling_time[0] | above 0"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {tolerance_settling_time: «1»}}",
+                    "«»: goal.limits.tolerance_settling_time | no measure"},
+        GoalRefusal{nine_tolerances(), "«»: goal.limits.tolerance_settling_time[9] | one too many"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {rest_error_rms: «1»}}",
+                    "«»: goal.limits.rest_error_rms | not measured"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {overshoot: «-1»}}",
+                    "«»: goal.limits.overshoot | '-1'"},
+        GoalRefusal{"sweep: {grid: {«verdict.bands»: [[0], [1]]}}", "«»: sweep.grid.verdict.bands | swept"}));
 
 // `stop` in a manifest: what is read, and what is refused.
 
@@ -234,19 +235,19 @@ TEST_P(RefusedStop, MessageGivesTheReason) {
 
 INSTANTIATE_TEST_SUITE_P(
     , RefusedStop,
-    testing::Values(StopRefusal{"stop: 3", "6:7: stop | '3'"},
-                    StopRefusal{"stop: {max_trials: 500}", "6:7: stop.success_rate_halfwidth | missing"},
-                    StopRefusal{"stop: {success_rate_halfwidth: 0.02}", "6:7: stop.max_trials | missing"},
-                    StopRefusal{"stop: {success_rate_halfwidth: 0.02, max_trails: 500, max_trials: 500}",
-                                "6:38: stop.max_trails | max_trials"},
-                    StopRefusal{"stop: {success_rate_halfwidth: 0.5, max_trials: 500}",
-                                "6:32: stop.success_rate_halfwidth | greater than 0 and less than 0.5"},
-                    StopRefusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 5}",
-                                "6:49: stop.max_trials | at least 10"},
-                    StopRefusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 50, min_trials: 60}",
-                                "6:65: stop.min_trials | at most 50"},
-                    StopRefusal{"design: sobol\nstop: {success_rate_halfwidth: 0.1, max_trials: 50}",
-                                "7:7: stop | monte_carlo"}));
+    testing::Values(StopRefusal{"stop: «3»", "«»: stop | '3'"},
+                    StopRefusal{"stop: «{max_trials: 500}»", "«»: stop.success_rate_halfwidth | missing"},
+                    StopRefusal{"stop: «{success_rate_halfwidth: 0.02}»", "«»: stop.max_trials | missing"},
+                    StopRefusal{"stop: {success_rate_halfwidth: 0.02, «max_trails»: 500, max_trials: 500}",
+                                "«»: stop.max_trails | max_trials"},
+                    StopRefusal{"stop: {success_rate_halfwidth: «0.5», max_trials: 500}",
+                                "«»: stop.success_rate_halfwidth | greater than 0 and less than 0.5"},
+                    StopRefusal{"stop: {success_rate_halfwidth: 0.1, max_trials: «5»}",
+                                "«»: stop.max_trials | at least 10"},
+                    StopRefusal{"stop: {success_rate_halfwidth: 0.1, max_trials: 50, min_trials: «60»}",
+                                "«»: stop.min_trials | at most 50"},
+                    StopRefusal{"design: sobol\nstop: «{success_rate_halfwidth: 0.1, max_trials: 50}»",
+                                "«»: stop | monte_carlo"}));
 
 }  // namespace
 }  // namespace zerocount::sections

@@ -114,7 +114,7 @@ TEST(LinearAxis, ProfilesHaveThePeriodOfTheTravel) {
   EXPECT_NE(friction::value_at(k2, 0.05), friction::value_at(k2, 0.1));
   EXPECT_NEAR(friction::value_at(k2, 0.05), friction::value_at(k2, 0.25),
               1e-12 * friction::value_at(k2, 0.05));
-  EXPECT_TRUE(has_faults(study_of(stage_with(loop + "travel: 0.2\n")).warnings, "12:9: travel | no effect"));
+  EXPECT_TRUE(has_faults(study_of(stage_with(loop + "travel: «0.2»\n")).warnings, "«»: travel | no effect"));
 }
 
 std::vector<trial::SampleRecord> records_of(const trial::TrialParameters& parameters,

@@ -2,6 +2,7 @@
 #include "experiments/study/group_inputs.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/marked_text.hpp"
 
 namespace zerocount::sections {
 namespace {
@@ -68,8 +69,8 @@ TEST(TorqueFromAFile, MistakesAreReportedWithTheirPlace) {
     std::string expected;
   };
   const std::vector<Case> cases{
-      {"t,torque\n0,1\n0.1,2\n0.1,3\n",
-       "record.csv:4:1: command.torque.file: the time 0.1 s is not after the one before it, 0.1 s; expected "
+      {"t,torque\n0,1\n0.1,2\n«0.1,3»\n",
+       "record.csv:«»: command.torque.file: the time 0.1 s is not after the one before it, 0.1 s; expected "
        "increasing times"},
       {"t,torque [V]\n0,1\n0.1,2\n",
        "record.csv:1:1: command.torque.file: the column torque has the unit 'V'; expected N m or mN m"},
@@ -77,14 +78,16 @@ TEST(TorqueFromAFile, MistakesAreReportedWithTheirPlace) {
        "record.csv:1:1: command.torque.file: the table has no column torque; expected a header such as t "
        "[s], "
        "torque [N m]"},
-      {"t,torque\n0,1\n0.1,nan\n",
-       "record.csv:3:1: command.torque.file: 'nan' is not a number; expected a finite number"},
-      {"t,torque\n0,1\n0.1\n", "record.csv:3:1: command.torque.file: a row of 1 cells"},
+      {"t,torque\n0,1\n«0.1,nan»\n",
+       "record.csv:«»: command.torque.file: 'nan' is not a number; expected a finite number"},
+      {"t,torque\n0,1\n«0.1»\n", "record.csv:«»: command.torque.file: a row of 1 cells"},
       {"t,torque\n0,1\n", "record.csv:1:1: command.torque.file: the table has 1 rows; expected a header"},
       {"", "record.csv:1:1: command.torque.file: the table is empty; expected a header such as t [s]"},
   };
   for (const Case& one : cases) {
-    const std::string found = refusal_of_replay(replay("{file: record.csv}"), {{"record.csv", one.text}});
+    const MarkedText record = marked_text(one.text);
+    const std::string found = with_marks(
+        refusal_of_replay(replay("{file: record.csv}"), {{"record.csv", record.text}}), "record.csv", record);
     EXPECT_EQ(found.find(one.expected), 0) << found << "\n" << one.expected;
     EXPECT_EQ(found.find('\n'), std::string::npos) << "nothing follows from it: " << found;
   }
@@ -191,11 +194,15 @@ TEST(Spectrum, AbsurdSizesAreRefused) {
 using Draw = std::vector<double>;
 
 study::Study study_with_samples(const std::string& table, const std::string& more) {
-  return manifest::parse_study(minimal_manifest(more), "m.yaml", {}, known_external_inputs(nullptr, table));
+  return study_of(minimal_manifest(more), {}, known_external_inputs(nullptr, table));
 }
 
+/// The message with which the study is refused. The table p.csv and the manifest may have marks.
 std::string refusal_with(const std::string& table, const std::string& more) {
-  return refusal_by([&] { study_with_samples(table, more); });
+  const MarkedText marked = marked_text(table);
+  const std::string message =
+      refusal_of(minimal_manifest(more), {}, known_external_inputs(nullptr, marked.text));
+  return with_marks(message, "p.csv", marked);
 }
 
 /// A random table of joint draws of k1 and k2; no two rows are equal.
@@ -313,33 +320,33 @@ INSTANTIATE_TEST_SUITE_P(
     , RefusedSamples,
     testing::Values(
         SamplesRefusal{"friction.k1\n", "samples: p.csv", "p.csv:1:1: samples | has 0 draws"},
-        SamplesRefusal{"friction.k1,friction.k2\n1,2\n3\n", "samples: p.csv",
-                       "p.csv:3:1: samples | a row of 1 cells"},
-        SamplesRefusal{"friction.k1,\n1,2\n", "samples: p.csv", "p.csv:1:13: samples | the column"},
-        SamplesRefusal{"friction.k1,friction.k1\n1,2\n", "samples: p.csv",
-                       "p.csv:1:13: samples | two columns are named 'friction.k1'"},
+        SamplesRefusal{"friction.k1,friction.k2\n1,2\n«3»\n", "samples: p.csv",
+                       "p.csv:«»: samples | a row of 1 cells"},
+        SamplesRefusal{"friction.k1,«»\n1,2\n", "samples: p.csv", "p.csv:«»: samples | the column"},
+        SamplesRefusal{"friction.k1,«friction.k1»\n1,2\n", "samples: p.csv",
+                       "p.csv:«»: samples | two columns are named 'friction.k1'"},
         SamplesRefusal{"friction.kk\n1\n", "samples: p.csv", "p.csv:1:1: friction.kk | unknown parameter"},
         SamplesRefusal{"trials\n1\n", "samples: p.csv", "p.csv:1:1: trials | unknown parameter"},
-        SamplesRefusal{"friction.k1\n100\nfast\n", "samples: p.csv",
-                       "p.csv:3:1: friction.k1.choice.1 | is not a number"},
+        SamplesRefusal{"friction.k1\n100\n«fast»\n", "samples: p.csv",
+                       "p.csv:«»: friction.k1.choice.1 | is not a number"},
         SamplesRefusal{"friction.k1\n100\n-5\n", "samples: p.csv",
                        "p.csv:1:1: friction.k1.choice | (0, inf)"},
         SamplesRefusal{"friction.k1\n100\n", "friction: {k1: 90}\nsamples: p.csv",
                        "p.csv:1:1: friction.k1 | the column"},
         SamplesRefusal{"friction.k1\n100\n", "sweep: {grid: {friction.k1: [90, 100]}}\nsamples: p.csv",
                        "p.csv:1:1: friction.k1 | the column"},
-        SamplesRefusal{"friction.k1,initial.position\n100,1\n", "machines: 2\nsamples: p.csv",
-                       "7:10: samples | per: machine"},
-        SamplesRefusal{"friction.k1\n100\n", "samples: {per: machine}", "6:10: samples.file | missing"},
-        SamplesRefusal{"friction.k1\n100\n", "samples: {file: p.csv, per: machine}",
-                       "6:29: friction.k1.per | has no machines"},
-        SamplesRefusal{"friction.k1\n100\n", "samples: 5", "6:10: samples | truth value"},
+        SamplesRefusal{"friction.k1,initial.position\n100,1\n", "machines: 2\nsamples: «p.csv»",
+                       "«»: samples | per: machine"},
+        SamplesRefusal{"friction.k1\n100\n", "samples: «{per: machine}»", "«»: samples.file | missing"},
+        SamplesRefusal{"friction.k1\n100\n", "samples: {file: p.csv, per: «machine»}",
+                       "«»: friction.k1.per | has no machines"},
+        SamplesRefusal{"friction.k1\n100\n", "samples: «5»", "«»: samples | truth value"},
         SamplesRefusal{"friction.k1\n100\n101\n",
                        "friction: {k2: {uniform: [600, 900]}}\nsamples: p.csv\n"
-                       "correlation: [[friction.k1, friction.k2, 0.5]]",
-                       "8:16: correlation.0.0 | samples"},
-        SamplesRefusal{"friction.k1\n100\n101\n", "design: saltelli\nsamples: p.csv",
-                       "7:10: samples | another design"}));
+                       "correlation: [[«friction.k1», friction.k2, 0.5]]",
+                       "«»: correlation.0.0 | samples"},
+        SamplesRefusal{"friction.k1\n100\n101\n", "design: saltelli\nsamples: «p.csv»",
+                       "«»: samples | another design"}));
 
 }  // namespace
 }  // namespace zerocount::sections

@@ -96,28 +96,28 @@ TEST(TargetUnits, FitTheHoldAndTheCounts) {
                                      "")),
       "");
   EXPECT_TRUE(has_faults(
-      refusal_of(manifest_commanding("{units: si, targets: [0.1], hold: 0.1, profile: {shape: trapezoidal, "
+      refusal_of(manifest_commanding("{units: si, targets: [0.1], hold: «0.1», profile: {shape: trapezoidal, "
                                      "velocity_limit: 1, acceleration_limit: 100}}",
                                      "")),
-      "5:44: command.hold | a travel of 0.1 rad"));
-  EXPECT_TRUE(has_faults(refusal_of(manifest_commanding("{units: si, targets: [1.0e+8]}", "")),
-                         "5:32: encoder.fine | counts of this encoder"));
+      "«»: command.hold | a travel of 0.1 rad"));
+  EXPECT_TRUE(has_faults(refusal_of(manifest_commanding("{units: si, targets: [«1.0e+8»]}", "")),
+                         "«»: encoder.fine | counts of this encoder"));
   EXPECT_TRUE(
-      has_faults(refusal_of(manifest_commanding("{units: si, targets: [0.1, {normal: {mean: 0, sd: 1}}]}")),
-                 "5:37: command.targets.1 | unbounded"));
+      has_faults(refusal_of(manifest_commanding("{units: si, targets: [0.1, «{normal: {mean: 0, sd: 1}}»]}")),
+                 "«»: command.targets.1 | unbounded"));
   EXPECT_TRUE(has_faults(
-      refusal_of(manifest_commanding("{units: si, sequence: {targets: [0.1, 0.1], overrun: 0.01}}", "")),
-      "5:48: command.sequence.targets.1 | 0.1 rad, not above"));
+      refusal_of(manifest_commanding("{units: si, sequence: {targets: [0.1, «0.1»], overrun: 0.01}}", "")),
+      "«»: command.sequence.targets.1 | 0.1 rad, not above"));
 }
 
 TEST(TargetUnits, UnknownWordsAndSweepsAreRefused) {
-  EXPECT_TRUE(has_faults(refusal_of(manifest_commanding("{units: rad, targets: [1]}")),
-                         "5:18: command.units | one of counts, si"));
+  EXPECT_TRUE(has_faults(refusal_of(manifest_commanding("{units: «rad», targets: [1]}")),
+                         "«»: command.units | one of counts, si"));
   EXPECT_EQ(refusal_of(manifest_commanding("{units: counts, targets: [1]}")), "");
-  EXPECT_TRUE(has_faults(refusal_of(manifest_commanding("{units: counts, targets: [1.5]}")),
-                         "5:36: command.targets.0 | not written as a whole number"));
-  EXPECT_TRUE(has_faults(refusal_of(manifest_commanding("{units: si, torque: {levels: [0.1]}}")),
-                         "5:18: command.units | the loop is open"));
+  EXPECT_TRUE(has_faults(refusal_of(manifest_commanding("{units: counts, targets: [«1.5»]}")),
+                         "«»: command.targets.0 | not written as a whole number"));
+  EXPECT_TRUE(has_faults(refusal_of(manifest_commanding("{units: «si», torque: {levels: [0.1]}}")),
+                         "«»: command.units | the loop is open"));
   EXPECT_TRUE(says(refusal_of(minimal_manifest("sweep: {grid: {command.units: [counts, si]}}\n")),
                    "this key cannot be swept"));
 }
@@ -196,7 +196,7 @@ TEST(GainUnits, DefaultsPerCountAreNotUsedInSiUnits) {
 
 TEST(GainUnits, UnknownWordsAndSweepsAreRefused) {
   EXPECT_TRUE(
-      has_faults(refusal_of(minimal_manifest("controller: {units: SI}\n")), "6:21: controller.units | 'SI'"));
+      has_faults(refusal_of(minimal_manifest("controller: {units: «SI»}\n")), "«»: controller.units | 'SI'"));
   EXPECT_TRUE(says(refusal_of(minimal_manifest("sweep: {grid: {controller.units: [count, si]}}\n")),
                    "this key cannot be swept"));
 }
@@ -243,18 +243,18 @@ TEST(ConverterRange, IsKeptWhileTheWordLengthIsSwept) {
 }
 
 TEST(ConverterRange, ExcludesAResolution) {
-  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("dac: {resolution: 2.4e-4, range: 0.5}\n")),
-                         "6:19: dac.resolution | dac.range | either"));
-  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("dac: {range: 0}\n")),
-                         "6:14: dac.range | greater than 0 | or none"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("dac: {resolution: «2.4e-4», range: 0.5}\n")),
+                         "«»: dac.resolution | dac.range | either"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("dac: {range: «0»}\n")),
+                         "«»: dac.range | greater than 0 | or none"));
   EXPECT_EQ(refusal_of(minimal_manifest("dac: {resolution: 2.4e-4, range: none}\n")), "");
   // Each has an effect at one of the points.
   EXPECT_EQ(refusal_of(minimal_manifest(
                 "sweep: {cases: {a: {dac.resolution: 1.0e-4}, b: {dac.range: {uniform: [0.4, 0.5]}}}}\n")),
             "");
   EXPECT_TRUE(
-      has_faults(study_of(manifest_commanding("{torque: {levels: [0.4]}}", "dac: {range: 0.3}\n")).warnings,
-                 "5:29: command.torque.levels.0 | clipped"));
+      has_faults(study_of(manifest_commanding("{torque: {levels: [«0.4»]}}", "dac: {range: 0.3}\n")).warnings,
+                 "«»: command.torque.levels.0 | clipped"));
 }
 
 // Without it the resolution of a linear axis is required, because its default is in N m.

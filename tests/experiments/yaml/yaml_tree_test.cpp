@@ -2,6 +2,7 @@
 
 #include "experiments/manifests/shipped_manifests.hpp"
 #include "experiments/yaml/faults.hpp"
+#include "tests/support/marked_text.hpp"
 #include "tests/support/refusal.hpp"
 
 namespace zerocount::yaml {
@@ -15,10 +16,12 @@ std::string message_of(const Problems& problems) {
   return refusal_by([&] { problems.raise_if_any(); });
 }
 
+/// The message about the text, which may have marks «…» (see with_marks()).
 std::string problem_with(const std::string& text) {
+  const MarkedText marked = marked_text(text);
   Problems problems;
-  parse(text, problems);
-  return message_of(problems);
+  parse(marked.text, problems);
+  return with_marks(message_of(problems), "m.yaml", marked);
 }
 
 TEST(YamlTree, KeepsOrderPlacesAndQuotes) {
@@ -44,17 +47,17 @@ TEST(YamlTree, AnAliasSharesTheNodeOfItsAnchor) {
 }
 
 TEST(YamlTree, ReportsEveryDuplicateKeyWhereItStands) {
-  EXPECT_EQ(problem_with("a: 1\nb: {c: 1, c: 2}\na: 3\n"),
-            "m.yaml:2:11: b.c: duplicate key; expected each key once\n"
-            "m.yaml:3:1: a: duplicate key; expected each key once");
+  EXPECT_EQ(problem_with("a: 1\nb: {c: 1, «c»: 2}\n«a»: 3\n"),
+            "m.yaml:«1»: b.c: duplicate key; expected each key once\n"
+            "m.yaml:«2»: a: duplicate key; expected each key once");
 }
 
 TEST(YamlTree, RefusesInvalidYaml) {
-  EXPECT_TRUE(says(problem_with("b: 1\na: [1, 2\n"), "m.yaml:3:1: manifest: incomplete list"));
-  EXPECT_TRUE(says(problem_with("b: 1\na: [1, 2"), "m.yaml:2:1: manifest: incomplete list"));
-  EXPECT_TRUE(says(problem_with("a: b: c\n"), "m.yaml:1:5: manifest: unexpected ':'"));
-  EXPECT_TRUE(says(problem_with("a: \"x\\\"\nb: 1\n"), "m.yaml:1:4: manifest: unclosed quotation mark"));
-  EXPECT_TRUE(says(problem_with("a: 1\n\tb: 2\n"), "m.yaml:2:1: manifest: tab in the indentation"));
+  EXPECT_TRUE(says(problem_with("b: 1\na: [1, 2\n«»"), "m.yaml:«»: manifest: incomplete list"));
+  EXPECT_TRUE(says(problem_with("b: 1\n«a»: [1, 2"), "m.yaml:«»: manifest: incomplete list"));
+  EXPECT_TRUE(says(problem_with("a: b«»: c\n"), "m.yaml:«»: manifest: unexpected ':'"));
+  EXPECT_TRUE(says(problem_with("a: «\"x\\\"\nb: 1»\n"), "m.yaml:«»: manifest: unclosed quotation mark"));
+  EXPECT_TRUE(says(problem_with("a: 1\n«\tb»: 2\n"), "m.yaml:«»: manifest: tab in the indentation"));
   EXPECT_TRUE(says(problem_with("a: *nothing\n"), "alias without an anchor"));
   EXPECT_TRUE(says(problem_with("a: ]\n"), "m.yaml:1:"));
 }
@@ -70,7 +73,7 @@ TEST(YamlTree, RefusesASecondDocumentTagsAndOddKeys) {
 }
 
 TEST(YamlTree, RefusesAnchorsThatContainThemselves) {
-  EXPECT_TRUE(says(problem_with("a: &x [1, *x]\n"), "m.yaml:1:11: a.1: the alias lies inside"));
+  EXPECT_TRUE(says(problem_with("a: &x [1, «*x»]\n"), "m.yaml:«»: a.1: the alias lies inside"));
   EXPECT_TRUE(says(problem_with("a: &x {b: {c: *x}}\n"), "a.b.c: the alias lies inside"));
 }
 
@@ -89,7 +92,7 @@ TEST(YamlTree, RefusesDeepNesting) {
 }
 
 TEST(YamlTree, RefusesBytesThatAreNotText) {
-  EXPECT_TRUE(says(problem_with("a: 1\nb: \xff\n"), "m.yaml:2:4: manifest: invalid UTF-8"));
+  EXPECT_TRUE(says(problem_with("a: 1\nb: «\xff»\n"), "m.yaml:«»: manifest: invalid UTF-8"));
   EXPECT_TRUE(says(problem_with(std::string("a: 1\0b", 6)), "m.yaml:1:5"));
   EXPECT_TRUE(says(problem_with("a: \xc3"), "m.yaml:1:4"));
   EXPECT_EQ(problem_with("a: λ # θ\r\nb: ω\r\n"), "");
@@ -97,8 +100,8 @@ TEST(YamlTree, RefusesBytesThatAreNotText) {
 
 TEST(YamlTree, RefusesControlCharactersInTexts) {
   for (const char* text : {"\\0", "\\e", "\\x7F", "\\u0085", "\\u202E", "\\u2067", "\\r"}) {
-    const std::string refused = problem_with(fmt::format("a: {{b: \"x{}y\"}}\n", text));
-    EXPECT_TRUE(says(refused, "m.yaml:1:8: a.b: control character U+"));
+    const std::string refused = problem_with(fmt::format("a: {{b: «\"x{}y\"»}}\n", text));
+    EXPECT_TRUE(says(refused, "m.yaml:«»: a.b: control character U+"));
     EXPECT_TRUE(says(problem_with(fmt::format("\"x{}y\": 1\n", text)), "control character"));
   }
   EXPECT_TRUE(says(problem_with("a: \u202Eb\n"), "m.yaml:1:4"));
@@ -108,8 +111,8 @@ TEST(YamlTree, RefusesControlCharactersInTexts) {
 // A key is the name of something, which stands in tables, messages and files of one line.
 TEST(YamlTree, AKeyStandsOnOneLine) {
   for (const char* const text : {"\\n", "\\t"}) {
-    const std::string refused = problem_with(fmt::format("a: {{\"x{}y\": 1}}\n", text));
-    EXPECT_TRUE(says(refused, "m.yaml:1:5: a: a line break or a tab in a key; expected a name on one line"));
+    const std::string refused = problem_with(fmt::format("a: {{«\"x{}y\"»: 1}}\n", text));
+    EXPECT_TRUE(says(refused, "m.yaml:«»: a: a line break or a tab in a key; expected a name on one line"));
   }
 }
 
@@ -144,10 +147,12 @@ TEST(YamlTree, MutatedTextsThrowOnlyExpectedErrors) {
   }
 }
 
+/// The message about the text, which may have marks «…» (see with_marks()).
 std::string problem_in(const std::string& text, bool one_line = false) {
+  const MarkedText marked = marked_text(text);
   Problems problems;
-  parse_yaml(text, "m.yaml", one_line, problems);
-  return refusal_by([&] { problems.raise_if_any(); });
+  parse_yaml(marked.text, "m.yaml", one_line, problems);
+  return with_marks(message_of(problems), "m.yaml", marked);
 }
 
 void collect_scalars(const YamlNode& node, std::vector<Place>& places) {
@@ -187,29 +192,27 @@ TEST(LexicalFaults, AQuotationMarkBeforeAnyScalarOfAShippedManifestIsAnErrorOnIt
 }
 
 TEST(LexicalFaults, AnUnclosedQuoteIsNamedEvenIfALaterOneClosesIt) {
-  const auto unclosed_at = [](const std::string& text, int line, int column) {
+  const auto expect_unclosed = [](const std::string& text) {
     const std::string problem = problem_in(text);
-    EXPECT_TRUE(
-        problem.starts_with(fmt::format("m.yaml:{}:{}: manifest: unclosed quotation mark", line, column)))
-        << text << "\n"
-        << problem;
+    EXPECT_TRUE(problem.starts_with("m.yaml:«»: manifest: unclosed quotation mark")) << text << "\n"
+                                                                                     << problem;
   };
   for (const std::string end : {"", "\n"}) {  // yaml-cpp treats them differently
-    unclosed_at("a: 1\nb: \"two\nc: 3" + end, 2, 4);
-    unclosed_at("a: 1\nb: 'two\nc: 3" + end, 2, 4);
-    unclosed_at("a: 1\nb: &anchor 'two\nc: 3" + end, 2, 12);
-    unclosed_at("a: 1\nb: ! &anchor \"two\nc: 3" + end, 2, 14);
+    expect_unclosed("a: 1\nb: «\"two»\nc: 3" + end);
+    expect_unclosed("a: 1\nb: «'two»\nc: 3" + end);
+    expect_unclosed("a: 1\nb: &anchor «'two»\nc: 3" + end);
+    expect_unclosed("a: 1\nb: ! &anchor «\"two»\nc: 3" + end);
   }
-  unclosed_at("a: \"one\nb: \"two\"\nc: 3\n", 1, 4);
-  unclosed_at("a: 'one\nb: 2 # the machine's\nc: 3\n", 1, 4);
-  unclosed_at("a: [1, \"two, 3]\nb: {c: \"\"}\n", 1, 8);
-  unclosed_at("a: {b: 'x, c: 2}\nd: 'y'\n", 1, 8);
-  unclosed_at("\"a: 1\nb\": 2\n", 1, 1);
-  unclosed_at("a: 1\n'b: 2\nc: 3\n", 2, 1);
-  unclosed_at("a:\n  - \"x\n  - y\"\n", 2, 5);
-  unclosed_at("a:\n  b: 'x\n  c: ''\n", 2, 6);
-  unclosed_at("a: |\n  it's \"text\nb: \"c\nd: 1\n", 3, 4);
-  unclosed_at("a: \"x\n---\nb: 1\"\n", 1, 4);
+  expect_unclosed("a: «\"one»\nb: \"two\"\nc: 3\n");
+  expect_unclosed("a: «'one»\nb: 2 # the machine's\nc: 3\n");
+  expect_unclosed("a: [1, «\"two, 3]»\nb: {c: \"\"}\n");
+  expect_unclosed("a: {b: «'x, c: 2}»\nd: 'y'\n");
+  expect_unclosed("«\"a: 1»\nb\": 2\n");
+  expect_unclosed("a: 1\n«'b: 2»\nc: 3\n");
+  expect_unclosed("a:\n  - «\"x»\n  - y\"\n");
+  expect_unclosed("a:\n  b: «'x»\n  c: ''\n");
+  expect_unclosed("a: |\n  it's \"text\nb: «\"c»\nd: 1\n");
+  expect_unclosed("a: «\"x»\n---\nb: 1\"\n");
   EXPECT_TRUE(problem_in("\"x", true).starts_with("m.yaml: manifest: unclosed quotation mark"));
 }
 
@@ -225,13 +228,13 @@ TEST(LexicalFaults, AFaultIsReportedWhereItBegins) {
   const auto starts = [](const std::string& text, const std::string& problem) {
     EXPECT_TRUE(problem_in(text).starts_with(problem)) << text << "\n" << problem_in(text);
   };
-  starts("a: \"b\"c\nd: 1\n", "m.yaml:1:7: manifest: text after the closing quotation mark");
-  starts("a: [\"b\" c]\n", "m.yaml:1:9: manifest: text after the closing quotation mark");
-  starts("a:\n\tb: 1\n", "m.yaml:2:1: manifest: tab in the indentation");
+  starts("a: \"b\"«c»\nd: 1\n", "m.yaml:«»: manifest: text after the closing quotation mark");
+  starts("a: [\"b\" «c»]\n", "m.yaml:«»: manifest: text after the closing quotation mark");
+  starts("a:\n«\tb»: 1\n", "m.yaml:«»: manifest: tab in the indentation");
   starts("\ta: 1\n", "m.yaml:1:1: manifest: tab in the indentation");
-  starts("a:\n  b: 1\n \t c: 1\n", "m.yaml:3:2: manifest: tab in the indentation");
-  starts("a: 1\nb:2\nc: 3\n", "m.yaml:2:1: manifest: a text without the colon");
-  starts("a: {b: 1}\nc 5\nd: 3\n", "m.yaml:2:1: manifest: a text without the colon");
+  starts("a:\n  b: 1\n «\t c»: 1\n", "m.yaml:«»: manifest: tab in the indentation");
+  starts("a: 1\n«b:2»\nc: 3\n", "m.yaml:«»: manifest: a text without the colon");
+  starts("a: {b: 1}\n«c 5»\nd: 3\n", "m.yaml:«»: manifest: a text without the colon");
   starts("<<: {a: 1}\n", "m.yaml:1:1: manifest: merge keys are not supported");
 }
 

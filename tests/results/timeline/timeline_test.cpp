@@ -71,8 +71,17 @@ TEST(Timeline, IsRecognisedByItsFirstBytes) {
   EXPECT_FALSE(timeline::is_timeline(""));
 }
 
-TEST(TimeSpan, DoesNothingWithoutATimeline) {
-  work_in_spans(nullptr);
+TEST(TimeSpan, IsNotRecordedWithoutATimeline) {
+  Timeline timeline;
+  {
+    const TimeSpan recorded(&timeline, "recorded", Work::serial, 1);
+    const TimeSpan dropped(nullptr, "dropped", Work::serial, 2);
+    work_in_spans(nullptr);
+  }
+  const nlohmann::json spans = spans_of(timeline);
+  ASSERT_EQ(spans.size(), 1U) << spans;
+  EXPECT_EQ(spans[0].at("name"), "recorded");
+  EXPECT_EQ(spans[0].at("args").at("trials"), 1);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "runners/program/commands.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/marked_text.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -83,14 +84,14 @@ TEST_F(CommandLine, UnusableDataExitsWithFour) {
 }
 
 TEST_F(CommandLine, ManifestErrorsAreAllReportedWithTheirPlace) {
-  folder_.write(
-      "bad.yaml",
-      "zerocount: 1\nname: bad\nseed: 1\ntrials: 10\nfrictoin: {k1: 3}\nfriction: {k1: -5, n: 0.5}\n"
-      "command: {targets: [1], hold: no}\n");
+  const MarkedText bad = marked_text(
+      "zerocount: 1\nname: bad\nseed: 1\ntrials: 10\n«frictoin»: {k1: 3}\nfriction: {k1: «-5», n: «0.5»}\n"
+      "command: {targets: [1], hold: «no»}\n");
+  folder_.write("bad.yaml", bad.text);
   const ProgramResult result = program({"check", "bad.yaml"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_TRUE(says(result.err, "bad.yaml:5:1: frictoin", "bad.yaml:6:16: friction.k1",
-                   "bad.yaml:6:23: friction.n", "bad.yaml:7:31: command.hold"));
+  EXPECT_TRUE(says(with_marks(result.err, "bad.yaml", bad), "bad.yaml:«1»: frictoin",
+                   "bad.yaml:«2»: friction.k1", "bad.yaml:«3»: friction.n", "bad.yaml:«4»: command.hold"));
 }
 
 TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {

@@ -2,6 +2,7 @@
 #include <csignal>
 
 #include "tests/runners/design_commands/tune_fixture.hpp"
+#include "tests/support/marked_text.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -311,17 +312,19 @@ TEST_F(Tune, NeedsAGoalAndFreeParameters) {
 TEST_F(Tune, RefusesWrongSectionsWithTheirPlace) {
   const auto error_of = [this](const std::string& section) {
     write_axis("goal: {within: 0.1, moves: 0.98}\n" + section + "\n");
+    const MarkedText axis = marked_text(folder_.read("axis.yaml"));
+    folder_.write("axis.yaml", axis.text);
     const ProgramResult result = program({"check", "axis.yaml"});
     EXPECT_EQ(result.code, 2) << section;
-    return result.err;
+    return with_marks(result.err, "axis.yaml", axis);
   };
-  EXPECT_TRUE(says(error_of("tune: {free: {controller.ko: [0, 1]}}"), "12:15: tune.free.controller.ko"));
+  EXPECT_TRUE(says(error_of("tune: {free: {«controller.ko»: [0, 1]}}"), "«»: tune.free.controller.ko"));
   EXPECT_TRUE(says(error_of("tune: {free: {controller.ki: [1, 0]}}"), "1 is not below 0"));
   EXPECT_TRUE(says(error_of("tune: {free: {controller.ki: {log: [0, 1]}}}"), "0 is not above 0"));
   EXPECT_TRUE(says(error_of("tune: {free: {friction.k1: [10, 20]}}"), "swept or drawn at random"));
   EXPECT_TRUE(says(error_of("tune: {free: {friction.model: [0, 1]}}"), "is not a number"));
-  EXPECT_TRUE(says(error_of("tune: {free: {command.profile.velocity_limit: [1, 2]}}"),
-                   "12:15: tune.free.command.profile.velocity_limit: it has no effect"));
+  EXPECT_TRUE(says(error_of("tune: {free: {«command.profile.velocity_limit»: [1, 2]}}"),
+                   "«»: tune.free.command.profile.velocity_limit: it has no effect"));
   EXPECT_TRUE(says(error_of("tune: {free: {controller.observer.inertia: [1.0e-4, 1.0e-3]}}"), "no effect"));
   write_axis(
       "goal: {within: 0.1, moves: 0.98}\ntune: {free: {controller.observer.inertia: [1.0e-4, 1.0e-3], "

@@ -1,5 +1,6 @@
 // Names of earlier versions are refused with what they are called now, wherever a user may write them.
 #include "tests/runners/program.hpp"
+#include "tests/support/marked_text.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -22,8 +23,10 @@ class OldNames : public ProgramTest {
 const std::vector<std::string> both_meanings{"arrival_time", "final_settling_time"};
 
 TEST_F(OldNames, TheOldKeyForMachinesIsRefusedWithTheNewName) {
-  folder_.write("old.yaml", small_manifest(30, "rigs: 10\n"));
-  expect_refused({"check", "old.yaml"}, {"old.yaml:13:1: rigs: it is called machines since 0.2"});
+  const MarkedText old = marked_text(small_manifest(30, "«rigs»: 10\n"));
+  folder_.write("old.yaml", old.text);
+  EXPECT_TRUE(says(with_marks(refusal({"check", "old.yaml"}), "old.yaml", old),
+                   "old.yaml:«»: rigs: it is called machines since 0.2"));
   expect_refused({"check", "a.yaml", "--set", "rigs=10"}, {"rigs: it is called machines since 0.2"});
   folder_.write(
       "old.yaml",

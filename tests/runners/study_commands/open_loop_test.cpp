@@ -68,11 +68,91 @@ TEST_F(OpenLoop, TablesHaveTheLevels) {
   const std::string table = run({"summary", "loads.h5"}).out;
   EXPECT_TRUE(says(table, "position (µrad)"));
   EXPECT_FALSE(says(table, "zero-count"));
+}
+
+/// The lines of a CSV file, each a number for each name of its header.
+std::vector<std::map<std::string, double>> csv_lines(const std::string& text) {
+  const auto cells_of = [](const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream words(line);
+    for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+    return cells;
+  };
+  std::istringstream file(text);
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> names = cells_of(line);
+  std::vector<std::map<std::string, double>> lines;
+  while (std::getline(file, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    EXPECT_EQ(cells.size(), names.size()) << line;
+    std::map<std::string, double>& numbers = lines.emplace_back();
+    for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i)
+      numbers[names[i]] = std::stod(cells[i]);
+  }
+  return lines;
+}
+
+/// Expects the statistics of these values in the columns "<name>_mean [rad]", "<name>_low [rad]" … of a line.
+void expect_statistics(const std::map<std::string, double>& line, const std::string& name,
+                       const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  const double sd = std::sqrt(squares / (n - 1.0));
+  const double half_width = 2.2009851601 * sd / std::sqrt(n);  // Student's t: 97.5 %, 11 degrees of freedom
+  const auto [min, max] = std::minmax_element(values.begin(), values.end());
+  const auto expect = [&](const char* statistic, double expected) {
+    const std::string column = name + "_" + statistic + " [rad]";
+    ASSERT_TRUE(line.contains(column)) << column;
+    EXPECT_NEAR(line.at(column), expected, 1e-9 * std::abs(mean) + 1e-12) << column;
+  };
+  expect("mean", mean);
+  expect("low", mean - half_width);
+  expect("high", mean + half_width);
+  expect("sd", sd);
+  expect("min", *min);
+  expect("max", *max);
+}
+
+TEST_F(OpenLoop, ExportedLevelsAreTheStatisticsOfTheMoves) {
+  ASSERT_EQ(run({"run", "loads.yaml", "-o", "loads.h5"}).code, 0);
   ASSERT_EQ(run({"export", "loads.h5", "-o", "tables"}).code, 0);
-  std::istringstream lines(folder.read("tables/levels.csv"));
-  int count = 0;
-  for (std::string line; std::getline(lines, line);) ++count;
-  EXPECT_EQ(count, 1 + 2 * 4);
+  const std::vector<std::map<std::string, double>> lines = csv_lines(folder.read("tables/levels.csv"));
+  const reading::AllTrialsFile file(folder / "loads.h5");
+  const std::vector<trial::MoveOutcome> moves = file.outcomes(file.rows());
+  ASSERT_EQ(moves.size(), 2U * 12U * 4U);
+  ASSERT_EQ(lines.size(), 2U * 4U);
+  for (std::size_t point = 0; point < 2; ++point) {
+    for (std::size_t level = 0; level < 4; ++level) {
+      const std::map<std::string, double>& line = lines[4 * point + level];
+      std::vector<double> positions, creeps;
+      double torque = 0.0;
+      std::int64_t deepest = 0;
+      for (std::size_t trial = 0; trial < 12; ++trial) {
+        const trial::MoveOutcome& move = moves[(12 * point + trial) * 4 + level];
+        positions.push_back(move.final_position);
+        creeps.push_back(move.creep);
+        torque += move.holding_torque / 12.0;
+        deepest = std::max(deepest, move.reversal_depth);
+      }
+      const auto expect = [&](const char* column, double expected) {
+        ASSERT_TRUE(line.contains(column)) << column;
+        EXPECT_NEAR(line.at(column), expected, 1e-12) << column << " of level " << level;
+      };
+      expect("point", static_cast<double>(point));
+      expect("move", static_cast<double>(level));
+      expect("n", 12.0);
+      expect("nonfinite", 0.0);
+      expect("broke_away", 0.0);
+      expect("torque [N m]", torque);
+      expect("reversal_depth_max", static_cast<double>(deepest));
+      expect_statistics(line, "position", positions);
+      expect_statistics(line, "creep", creeps);
+      EXPECT_EQ(line.size(), 19U) << "columns without an expectation";
+    }
+  }
 }
 
 TEST_F(OpenLoop, SampleRecordsHaveNoTarget) {

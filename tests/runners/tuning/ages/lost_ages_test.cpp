@@ -85,7 +85,7 @@ TEST(AgeOfLoss, IsGivenForEachClaim) {
   const LostAges found = lost_of({"goal={band: 1, within: 0.1, moves: 0.8}", "trials=1200",
                                   "conditions={light: {}, stiff: {friction.k1: {uniform: [75, 375]}}}"});
   ASSERT_EQ(found.claims.size(), 2U);
-  EXPECT_EQ(found.claims[1].claim.condition, 1U);
+  EXPECT_EQ(found.claims[1].claim.setting, 1U);
   // The stiff ones are where the light ones are after the time in which k1 grows by a half.
   EXPECT_NEAR(*found.claims[0].lost - *found.claims[1].lost, 1.0e6 / rate_of_k1 * std::log(1.5),
               0.2 * *found.claims[0].lost);

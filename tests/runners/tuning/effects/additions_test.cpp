@@ -32,7 +32,7 @@ void expect_same(const Limit& found, const Limit& wanted) {
   EXPECT_EQ(found.estimate.rates, wanted.estimate.rates) << found.effect;
   EXPECT_EQ(found.rate, wanted.rate) << found.effect;
   EXPECT_EQ(found.worst.goal, wanted.worst.goal) << found.effect;
-  EXPECT_EQ(found.worst.condition, wanted.worst.condition) << found.effect;
+  EXPECT_EQ(found.worst.setting, wanted.worst.setting) << found.effect;
   EXPECT_EQ(found.rates, wanted.rates) << found.effect;
 }
 

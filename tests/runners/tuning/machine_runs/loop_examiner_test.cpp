@@ -115,7 +115,7 @@ TEST(LoopExaminer, ExaminesTheLoopsUnderEveryCondition) {
   const study::Study both = under(
       "5.54e-4", "conditions: {heavy: {plant.inertia: 1.5e-3}, light: {}, delayed: {controller.delay: 3}}\n");
   const SmallestMargins margins = LoopExaminer(both, 1).margins_of(both, true);
-  ASSERT_EQ(margins.conditions.size(), 3U);
+  ASSERT_EQ(margins.settings.size(), 3U);
   ASSERT_TRUE(margins.stable);
   const auto alone_at = [&](std::int64_t condition) {
     const study::Study alone = in_setting(both, condition);
@@ -123,7 +123,7 @@ TEST(LoopExaminer, ExaminesTheLoopsUnderEveryCondition) {
   };
   for (std::int64_t condition = 0; condition < 3; ++condition) {
     const SmallestMargins alone = alone_at(condition);
-    const SmallestMargins& found = margins.conditions[static_cast<std::size_t>(condition)];
+    const SmallestMargins& found = margins.settings[static_cast<std::size_t>(condition)];
     EXPECT_EQ(found.gain.value, alone.gain.value) << condition;
     EXPECT_EQ(found.phase.value, alone.phase.value) << condition;
     EXPECT_EQ(found.delay.value, alone.delay.value) << condition;
@@ -135,7 +135,7 @@ TEST(LoopExaminer, ExaminesTheLoopsUnderEveryCondition) {
     EXPECT_EQ(LoopExaminer(both, 1).may_keep(both, wanted, true), margins.phase.value >= alone.phase.value)
         << condition;
   }
-  EXPECT_LT(margins.phase.value, margins.conditions[1].phase.value) << "the light one is not the worst";
+  EXPECT_LT(margins.phase.value, margins.settings[1].phase.value) << "the light one is not the worst";
   EXPECT_EQ(LoopExaminer(both, 1).margins_of(both, true).machines, 1);
 }
 

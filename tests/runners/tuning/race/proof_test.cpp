@@ -236,7 +236,7 @@ Candidate candidate_with(const std::vector<MadeUpClaim>& claims, int machines = 
   return candidate;
 }
 const Aim two_goals{.claims = {{.moves = 0.9}, {.moves = 0.9}, {.moves = 0.6}, {.moves = 0.6}},
-                    .conditions = 2};
+                    .settings = 2};
 
 TEST(Candidate, TheWorstOfSeveralClaimsDecides) {
   const Candidate lacking = candidate_with({{0.99, 0.1}, {0.95, 0.2}, {0.99, 0.3}, {0.62, 0.4}});

@@ -41,7 +41,7 @@ struct Shape {
 };
 
 inline Shape shape_of(const study::Study& study) {
-  return {study.machines, study.worlds, study.settings.total()};
+  return {study.machines, study.worlds, study.settings.empty() ? 0 : study.settings.total()};
 }
 
 /// Selection among the counts of a design point: one setting or all (null), one world or all (null).

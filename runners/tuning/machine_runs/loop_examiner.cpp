@@ -313,7 +313,7 @@ bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted) {
 }
 
 LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
-    : settings_(study.settings.total()) {
+    : settings_(study.settings.empty() ? 0 : study.settings.total()) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
   if (theory::has_no_linear_loop(first)) return;
   const study::TrialIndices indices = study::trial_indices(study);

@@ -313,7 +313,7 @@ bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted) {
 }
 
 LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
-    : settings_(study.settings.empty() ? 0 : study.settings.total()) {
+    : settings_(study.settings.listed()) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
   if (theory::has_no_linear_loop(first)) return;
   const study::TrialIndices indices = study::trial_indices(study);
@@ -448,10 +448,9 @@ std::optional<double> LoopExaminer::lowest_mode(const study::Study& candidate, b
   const auto bears = [&](double frequency) {
     if (stop.stop_requested()) throw trial::Interrupted{};
     return std::ranges::all_of(critical_, [&](const Corner& corner) {
-      const ExaminedMachine& one = machines_[corner.machine];
-      trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
-      p.plant = theory::with_load_mode(p.plant, frequency);
-      return none_unstable(loops_of({p, one, slides}));
+      Examination one = at(corner, candidate, slides);
+      one.p.plant = theory::with_load_mode(one.p.plant, frequency);
+      return none_unstable(loops_of(one));
     });
   };
   if (is_blind()) return std::nullopt;

@@ -130,9 +130,10 @@ class LoopExaminer {
                              const std::stop_token& stop = {}) const;
 
   /// Lowest natural frequency of a load mode (a second mass behind a spring, theory::with_load_mode) that the
-  /// critical machines bear, Hz. A mode at this or, in steps of 5 %, any higher frequency up to half the
-  /// sample rate makes no loop unstable. Frequencies below 1 Hz are not tried. Nothing if the study has a
-  /// load behind a coupling, or if a mode at half the sample rate makes a loop unstable.
+  /// critical machines bear, Hz. It is found in steps of 5 % from half the sample rate downwards: a mode at
+  /// this frequency, or at any step above it, makes no loop unstable. The search ends at the first step below
+  /// 1 Hz. Nothing if the study has a load behind a coupling, if the loops are not examined (is_blind()), or
+  /// if a mode at half the sample rate makes a loop unstable.
   /// @param slides whether machines of the candidate slide
   /// @throws trial::Interrupted if `stop` is requested
   std::optional<double> lowest_mode(const study::Study& candidate, bool slides,

@@ -226,25 +226,45 @@ TEST(LoopExaminer, ShortfallIsPositiveIfTheMarginsAreMissed) {
   EXPECT_LT(stable, 2 * steps);
 }
 
+/// Whether the loops of the margins are stable if half of the inertia is a load behind a spring.
+/// @param torque_constant factor of the machine's torque constant
+bool is_stable_with_mode(double frequency, double torque_constant) {
+  const double rate = 2.0 * std::numbers::pi * frequency;
+  const double swinging = 0.25 * 5.54e-4;
+  const study::Study swung = with_margins(
+      "off",
+      fmt::format("conditions: {{it: {{plant.inertia: {}, plant.load.inertia: {}, plant.load.stiffness: "
+                  "{}, plant.load.damping: {}, dac.gain_error: {}}}}}\n",
+                  0.5 * 5.54e-4, 0.5 * 5.54e-4, swinging * rate * rate, 0.02 * swinging * rate,
+                  torque_constant - 1.0));
+  return LoopExaminer(swung, 4).margins_of(swung, true).stable;
+}
+
 // At the lowest mode that is borne the loops are stable, and a little below it one is not.
 TEST(LoopExaminer, FindsTheLowestResonanceThatTheLoopsTolerate) {
   const study::Study study = with_margins("off");
   const std::optional<double> lowest = LoopExaminer(study, 4).lowest_mode(study, true);
   ASSERT_TRUE(lowest);
-  const auto is_stable = [&](double frequency) {
-    const double rate = 2.0 * std::numbers::pi * frequency;
-    const double swinging = 0.25 * 5.54e-4;
-    const study::Study swung = with_margins(
-        "off",
-        fmt::format("conditions: {{it: {{plant.inertia: {}, plant.load.inertia: {}, plant.load.stiffness: "
-                    "{}, plant.load.damping: {}}}}}\n",
-                    0.5 * 5.54e-4, 0.5 * 5.54e-4, swinging * rate * rate, 0.02 * swinging * rate));
-    return LoopExaminer(swung, 4).margins_of(swung, true).stable;
-  };
-  EXPECT_TRUE(is_stable(*lowest));
-  EXPECT_FALSE(is_stable(*lowest / 1.05));
+  EXPECT_TRUE(is_stable_with_mode(*lowest, 1.0));
+  EXPECT_FALSE(is_stable_with_mode(*lowest / 1.05, 1.0));
   const study::Study loaded = with_margins("off", "conditions: {it: {plant.load.inertia: 1.0e-4}}\n");
   EXPECT_FALSE(LoopExaminer(loaded, 4).lowest_mode(loaded, true)) << "it has a mode already";
+}
+
+TEST(LoopExaminer, LowestResonanceIsToleratedByEachMachineOfTheSpread) {
+  const study::Study study = with_margins("{spread: {torque_constant: 0.5}}");
+  const std::optional<double> lowest = LoopExaminer(study, 4).lowest_mode(study, true);
+  ASSERT_TRUE(lowest);
+  EXPECT_TRUE(is_stable_with_mode(*lowest, 1.5));
+  EXPECT_FALSE(is_stable_with_mode(*lowest / 1.05, 1.5));
+  EXPECT_TRUE(is_stable_with_mode(*lowest / 1.05, 1.0)) << "the weaker machine tolerates a lower resonance";
+}
+
+TEST(LoopExaminer, ListsMarginsBySettingOnlyIfTheStudyHasSettings) {
+  const study::Study plain = with_margins("off");
+  EXPECT_TRUE(LoopExaminer(plain, 4).margins_of(plain, true).settings.empty());
+  const study::Study single = with_margins("off", "conditions: {it: {plant.inertia: 5.0e-4}}\n");
+  EXPECT_EQ(LoopExaminer(single, 4).margins_of(single, true).settings.size(), 1U);
 }
 
 }  // namespace

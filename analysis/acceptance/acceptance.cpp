@@ -216,8 +216,8 @@ goal::Status status_of_these(const study::Goal& goal, const measures::MoveCounts
   return static_cast<double>(not_missing) < wanted ? goal::Status::missed : goal::Status::undecided;
 }
 
-/// Counts of the measured moves, with each machine as a cluster of dependent moves. @param met_of_machines
-/// [machine][move] whether the move meets the goal
+/// Counts of the measured moves, with each machine as a cluster of dependent moves.
+/// @param met_of_machines [machine][move] whether the move meets the goal
 measures::CellCounts measured_counts(const MetMoves& met_of_machines) {
   measures::CellCounts measured({.machines = std::ssize(met_of_machines)});
   for (std::size_t i = 0; i < met_of_machines.size(); ++i) {
@@ -230,8 +230,8 @@ measures::CellCounts measured_counts(const MetMoves& met_of_machines) {
   return measured;
 }
 
-/// Sets the measured results and the status of each claim. @param measured [goal] counts of the moves of the
-/// measured machines
+/// Sets the measured results and the status of each claim.
+/// @param measured [goal] counts of the moves of the measured machines
 void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
            std::span<const measures::CellCounts> measured) {
   const goal::Verdict verdict = goal::judge_goals(goals, measured, 1);
@@ -254,8 +254,8 @@ using Sequence = std::span<const study::SequenceMove>;
 using Values = std::vector<iso230::AxisRepeatability>;
 
 /// The values of ISO 230-2 of one run of the test, computed from the encoder counts at the ends of its moves.
-/// The true positions are not used. Null if the run has no values. @param moves moves of the run, in the
-/// order of `sequence`
+/// The true positions are not used. Null if the run has no values.
+/// @param moves moves of the run, in the order of `sequence`
 std::optional<iso230::AxisRepeatability> values_of_run(Sequence sequence,
                                                        std::span<const trial::MoveOutcome> moves) {
   trial::TrialParameters parameters;
@@ -322,8 +322,9 @@ std::size_t below(std::size_t count, random::NumberSource& numbers) {
 }
 
 /// Probability of one particular choice of N machines from N + R: 1 divided by the binomial coefficient of N
-/// + R over N. @param measured N, number of measured machines @param simulated R, number of simulated
-/// machines
+/// + R over N.
+/// @param measured N, number of measured machines
+/// @param simulated R, number of simulated machines
 double chance_of_a_choice(std::size_t measured, std::size_t simulated) {
   double chance = 1.0;
   for (std::size_t i = 1; i <= measured; ++i)

@@ -58,7 +58,8 @@ std::string log_entry(const layout::FileHeader& header, const std::string& sha25
 }
 
 /// The present text of the log with the reasons for a baseline, to which further entries can be appended;
-/// empty if there is no log. @throws Failure (bad_data) if the file is not such a log.
+/// empty if there is no log.
+/// @throws Failure (bad_data) if the file is not such a log.
 std::string log_so_far(const fs::path& path) {
   std::string log = bytes_of(path);
   if (log.empty()) return log;

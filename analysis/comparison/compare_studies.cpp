@@ -63,8 +63,8 @@ struct PointPair {
   PointTrials current;
 };
 
-/// Reads the trials of a design point that are compared, from both files. @throws Failure (bad_data) if a
-/// file is damaged
+/// Reads the trials of a design point that are compared, from both files.
+/// @throws Failure (bad_data) if a file is damaged
 PointPair read_trials(const StudyPair& pair, const MatchedPoint& point) {
   const auto read = [&](const ComparedStudy& study, std::int64_t at) {
     return read_point_trials(study.trials_of(point), at, study.trials, study.also);
@@ -84,8 +84,8 @@ auto of_compared(const PointPair& trials, bool paired, const Use& use) {
 }
 
 /// Compares one design point of both files. The verdicts on measures are still missing, because they depend
-/// on the p-values at all points. @param failing confidence with which a requirement must be contradicted to
-/// fail
+/// on the p-values at all points.
+/// @param failing confidence with which a requirement must be contradicted to fail
 PointComparison compare_point(const StudyComparison& comparison, const GateRules& rules,
                               const StudyPair& pair, const MatchedPoint& point, double failing) {
   const PointPair trials = read_trials(pair, point);
@@ -334,8 +334,8 @@ void note_units(StudyComparison& result, const StudyPair& pair) {
                                 : "means and rates are averages over the worlds");
 }
 
-/// Fills in the judgements, the verdicts and the forecast of the comparison. @param given rules of the user,
-/// before they are adapted to the points and goals of the pair
+/// Fills in the judgements, the verdicts and the forecast of the comparison.
+/// @param given rules of the user, before they are adapted to the points and goals of the pair
 void judge(StudyComparison& result, const GateRules& given, const StudyPair& pair) {
   const GateRules rules = rules_for(pair, given);
   result.goals = pair.goals;

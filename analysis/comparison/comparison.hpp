@@ -118,14 +118,16 @@ inline bool is_unequal(const StudyComparison& comparison) {
 
 /// Compares a results file with a baseline: finds what the two have in common, matches their design points,
 /// tests every measure at every point, controls the false discovery rate over all these tests, and gives
-/// verdicts. @throws Failure (bad_data) if points cannot be matched, one file has targets and the other
-/// torque levels, or a file is damaged.
+/// verdicts.
+/// @throws Failure (bad_data) if points cannot be matched, one file has targets and the other torque levels,
+/// or a file is damaged.
 StudyComparison compare_studies(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                                 const GateRules& rules = {});
 
 /// Compares two design points of one results file, with the point `baseline` as the reference: is the point
-/// `current` as good? @param baseline, current indices of the points @throws Failure (bad_data) in the cases
-/// of compare_studies()
+/// `current` as good?
+/// @param baseline, current indices of the points
+/// @throws Failure (bad_data) in the cases of compare_studies()
 StudyComparison compare_points(const reading::AllTrialsFile& file, std::int64_t baseline,
                                std::int64_t current, const GateRules& rules = {});
 
@@ -140,16 +142,17 @@ struct CompareOptions {
   std::optional<std::int64_t> max_trials{};
 };
 
-/// The rules of the comparison that follow from these options. @param labels labels of the compared design
-/// points, which the file of margins may name @throws Failure in the cases of read_gate_rules()
+/// The rules of the comparison that follow from these options.
+/// @param labels labels of the compared design points, which the file of margins may name
+/// @throws Failure in the cases of read_gate_rules()
 GateRules rules_of(const CompareOptions& options, std::span<const std::string> labels);
 
-/// Reads the results file `current` and the results file `baseline`, and compares them. @throws Failure in
-/// the cases of compare_studies(), read_gate_rules() and AllTrialsFile
+/// Reads the results file `current` and the results file `baseline`, and compares them.
+/// @throws Failure in the cases of compare_studies(), read_gate_rules() and AllTrialsFile
 StudyComparison compare_files(const std::filesystem::path& baseline, const std::filesystem::path& current,
                               const CompareOptions& options = {});
 
-/// What update_baseline() changed, and what it compared.
+/// Result of update_baseline(): whether it replaced the baseline, and the comparison before.
 struct BaselineUpdate {
   /// False if the baseline file was already equal to the new file, so that nothing was copied.
   bool changed{true};
@@ -172,8 +175,8 @@ BaselineUpdate update_baseline(const std::filesystem::path& file, const std::fil
 /// The verdict of the comparison in one sentence.
 std::string verdict_sentence(const StudyComparison& comparison);
 
-/// Text of a value of a measure or requirement with its unit; proportions in per cent. @param quantity name
-/// of the measure or of the required quantity
+/// Text of a value of a measure or requirement with its unit; proportions in per cent.
+/// @param quantity name of the measure or of the required quantity
 std::string value_text(double value, std::string_view quantity, std::string_view unit);
 
 /// Text of a number of trials, rounded up to two digits.

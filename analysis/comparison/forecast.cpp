@@ -34,7 +34,8 @@ enum class Truth {
 };
 
 /// Random weight of a kind of unit that the sample does not contain, drawn from its posterior, the gamma
-/// distribution of shape ½. @param bits 64 random bits
+/// distribution of shape ½.
+/// @param bits 64 random bits
 double unseen_weight(std::uint64_t bits) {
   const double z = random::standard_normal(bits);
   return jeffreys_shape * z * z;
@@ -66,8 +67,9 @@ class Simulator {
   std::size_t judgements() const { return samples_.measures().size() + samples_.requirements().size(); }
 
   /// [assumption] One simulated comparison under each assumption in `truths`; all of them use the same random
-  /// numbers. @param trials number of trials per design point @param simulation number of the simulation,
-  /// which selects the random numbers
+  /// numbers.
+  /// @param trials number of trials per design point
+  /// @param simulation number of the simulation, which selects the random numbers
   std::vector<SimulatedComparison> simulate(double trials, const std::vector<Truth>& truths,
                                             std::uint32_t simulation) const {
     FileWeights population;
@@ -103,9 +105,10 @@ class Simulator {
   }
 
   /// Random number of units of a kind that the sample of the file does not contain but further trials bring.
-  /// The number is the same for all measures of a point. @param kind 0: units that fail, 1: units that
-  /// succeed; for pairs, those of which only one fails, in the two directions @param trials number of trials
-  /// per design point
+  /// The number is the same for all measures of a point.
+  /// @param kind 0: units that fail, 1: units that succeed; for pairs, those of which only one fails, in the
+  /// two directions
+  /// @param trials number of trials per design point
   double unseen_units(std::size_t file, std::size_t point, std::uint32_t kind, std::uint32_t simulation,
                       double trials) const {
     const double weight = unseen_weight(two_samples::continuation_bits(

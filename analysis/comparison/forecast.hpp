@@ -74,7 +74,8 @@ struct ForecastOptions {
 
 /// Reduces the work of a forecast with many judgements, so that it does not grow faster than that of the
 /// comparison itself. Changes `options.simulations`, at most to an eighth, and makes the steps between the
-/// numbers of trials twice as large on a logarithmic scale. @param judgements number of judgements
+/// numbers of trials twice as large on a logarithmic scale.
+/// @param judgements number of judgements
 void limit_work(ForecastOptions& options, std::size_t judgements);
 
 /// The forecast for one judgement: a measure or a requirement at one point.
@@ -116,9 +117,10 @@ Forecast forecast_decision(const ForecastSamples& samples, const ForecastOptions
 /// @param pilot samples of the trials of one study
 Forecast forecast_equivalence(const ForecastSamples& pilot, const ForecastOptions& options);
 
-/// [measure] Posterior probability that the true effect is zero. @param z [measure] effect divided by its
-/// standard error. z is modelled by a mixture of N(0, 1) for zero effects and N(0, 1 + 3²) for others. The
-/// weights are estimated from all z by expectation maximisation, with one more measure of each kind.
+/// [measure] Posterior probability that the true effect is zero.
+/// @param z [measure] effect divided by its standard error. z is modelled by a mixture of N(0, 1) for zero
+/// effects and N(0, 1 + 3²) for others. The weights are estimated from all z by expectation maximisation,
+/// with one more measure of each kind.
 std::vector<double> zero_difference_probabilities(const std::vector<double>& z);
 
 }  // namespace zerocount::comparison

@@ -32,8 +32,8 @@ auto find_named(const List& all, std::string_view name) {
   return std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
 }
 
-/// Appends the quantities of a measure that a requirement can limit, such as its quantiles. @param stem name
-/// of the measure, which precedes the name of a quantile
+/// Appends the quantities of a measure that a requirement can limit, such as its quantiles.
+/// @param stem name of the measure, which precedes the name of a quantile
 void add_quantities(std::vector<RequirableQuantity>& quantities, const std::string& stem,
                     const GateMeasure& measure) {
   if (measure.proportion()) {
@@ -306,8 +306,8 @@ void read_requirements(const yaml::Field& field, std::vector<Requirement>& requi
   for (std::size_t i = 0; i < field.node->items.size(); ++i) add(yaml::item_of(field, i));
 }
 
-/// Reads a map {name of a measure: margin} into `rules`. @param is_own whether the map is for a single design
-/// point; it may then contain `require`
+/// Reads a map {name of a measure: margin} into `rules`.
+/// @param is_own whether the map is for a single design point; it may then contain `require`
 void read_point(const yaml::Field& field, bool is_own, PointRules& rules, yaml::Problems& problems) {
   const char* const expected =
       is_own ? "a map from measures to margins, and require" : "a map from measures to margins";
@@ -358,8 +358,8 @@ void read_measures(const yaml::Field& field, std::vector<std::string>& measures,
   }
 }
 
-/// The top-level keys of the file of margins and requirements. @param labels labels of the compared design
-/// points, which the file may name
+/// The top-level keys of the file of margins and requirements.
+/// @param labels labels of the compared design points, which the file may name
 std::vector<Key> keys_of(GateRules& rules, std::span<const std::string> labels, yaml::Problems& problems) {
   using yaml::Field;
   const auto number = [&](double& to, double low, double high) {

@@ -160,8 +160,9 @@ std::vector<GateMeasure> judged_measures(const GateRules& rules, const layout::M
 /// Whether the rules name a measure that a goal defines, such as "goal_rate".
 bool names_goal_measure(const GateRules& rules);
 /// Checks that each goal in the names of the rules' measures, such as "goal_rate[large]", is a goal that is
-/// judged. @param goals names of the judged goals @param path path of the manifest or results file, for the
-/// message
+/// judged.
+/// @param goals names of the judged goals
+/// @param path path of the manifest or results file, for the message
 /// @throws Failure (bad_input) if the rules name a measure of another goal
 void require_named_goals(const GateRules& rules, std::span<const std::string> goals, std::string_view path);
 /// Whether a study that has a goal is judged by the measures of this goal under these rules.
@@ -179,8 +180,9 @@ bool requires_goal(const GateRules& rules);
 std::vector<GateMeasure> measures_of_limits(const GateRules& rules);
 
 /// The rules after two replacements: the rules for a label are copied to all labels that represent it, and
-/// the requirement `goal` becomes one requirement for each goal. @param others {label: a label that
-/// represents it} @param goals names of the goals
+/// the requirement `goal` becomes one requirement for each goal.
+/// @param others {label: a label that represents it}
+/// @param goals names of the goals
 GateRules expanded(GateRules rules, const std::multimap<std::string, std::string>& others,
                    std::span<const std::string> goals);
 
@@ -194,8 +196,9 @@ std::vector<Requirement> requirements_of(const GateRules& rules, const std::stri
 /// also if there is no such file
 GateRules read_gate_rules(const std::filesystem::path& path, std::span<const std::string> labels);
 
-/// Parses the YAML text of margins and requirements, like read_gate_rules(). @param source name of the file
-/// in messages @param labels labels of the compared design points, which the text may name
+/// Parses the YAML text of margins and requirements, like read_gate_rules().
+/// @param source name of the file in messages
+/// @param labels labels of the compared design points, which the text may name
 GateRules parse_gate_rules(const std::string& text, std::string_view source,
                            std::span<const std::string> labels);
 

@@ -58,8 +58,8 @@ constexpr bool fails(GateVerdict verdict) {
   return verdict == GateVerdict::regression || verdict == GateVerdict::changed;
 }
 
-/// The gate's verdict that follows from a shown change of a measure. @param changed_fails whether a change
-/// for the better fails too
+/// The gate's verdict that follows from a shown change of a measure.
+/// @param changed_fails whether a change for the better fails too
 GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails);
 
 /// The worst of several verdicts, in the order of GateVerdict; not_measured if all are not_measured.
@@ -122,8 +122,8 @@ struct Judgement : TestedMeasure {
 /// bounds.
 bool has_finite_bounds(const TestedMeasure& measure);
 
-/// The standard error of a normally distributed estimate with these one-sided bounds. @param confidence
-/// confidence of each bound
+/// The standard error of a normally distributed estimate with these one-sided bounds.
+/// @param confidence confidence of each bound
 double standard_error_of(const statistics::ConfidenceInterval& bounds, double confidence);
 
 /// The largest change, among those that would fail the gate, that is still possible by the bounds of the
@@ -131,7 +131,8 @@ double standard_error_of(const statistics::ConfidenceInterval& bounds, double co
 double largest_possible_change(const TestedMeasure& measure);
 
 /// Adjusts the p-values of all measures of a comparison for false discoveries, and sets the shown change of
-/// each. @param rate accepted false discovery rate
+/// each.
+/// @param rate accepted false discovery rate
 void decide(std::span<TestedMeasure> tested, double rate);
 
 /// Gives every measure of a comparison its adjusted p-values and its verdicts.
@@ -167,7 +168,8 @@ double detectable_change(const Judgement& measure, const GateRules& rules, std::
 /// null hypothesis is true, α bounds the probability of any rejection at all. Source: Benjamini and
 /// Yekutieli, Annals of Statistics 29 (2001), 1165, Theorem 1.3.
 ///
-/// @param p p-values in [0, 1], in any order; @return the adjusted p-values in the same order
+/// @param p p-values in [0, 1], in any order;
+/// @return the adjusted p-values in the same order
 std::vector<double> benjamini_yekutieli(std::span<const double> p);
 
 }  // namespace zerocount::comparison

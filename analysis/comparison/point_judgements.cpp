@@ -277,7 +277,8 @@ void judge_mean(Judgement& result, const std::vector<double>& values, double con
 }
 
 /// Judges the requirement that the goal is met by the verdict on the goal, with the confidence that the
-/// manifest states. @param claims number of claims that must all be met
+/// manifest states.
+/// @param claims number of claims that must all be met
 void judge_goal(Judgement& result, const GoalTrials& required, std::size_t claims) {
   const study::Goal& asked = required.goal;
   const measures::MoveCounts counts = required.counts.sum();
@@ -294,8 +295,9 @@ void judge_goal(Judgement& result, const GoalTrials& required, std::size_t claim
 }
 
 /// Sets the hits and events of the sample, summed by unit. Trial i belongs to unit i mod `units`; if `units`
-/// is 0, each trial is a unit. @param hits [trial] number of hits @param events number of events of each
-/// trial
+/// is 0, each trial is a unit.
+/// @param hits [trial] number of hits
+/// @param events number of events of each trial
 void add_units(RequirementSample& sample, std::span<const double> hits, double events, std::int64_t units) {
   const std::size_t count = units > 0 ? static_cast<std::size_t>(units) : hits.size();
   sample.hits.assign(count, 0.0);

@@ -66,9 +66,10 @@ RequirementSample requirement_sample(const Requirement& requirement, const Point
 /// requirement depends on the sums of these terms over the units.
 two_samples::Sums sums_of_unit(double hits, double events);
 
-/// The verdict of judge_requirement() from sums alone. @param sample the requirement; its values are not used
-/// @param sums sums_of_unit() summed over the units @param confidence, failing_confidence as for
-/// judge_requirement()
+/// The verdict of judge_requirement() from sums alone.
+/// @param sample the requirement; its values are not used
+/// @param sums sums_of_unit() summed over the units
+/// @param confidence, failing_confidence as for judge_requirement()
 GateVerdict requirement_verdict(const RequirementSample& sample, const two_samples::Sums& sums,
                                 double confidence, double failing_confidence);
 

@@ -11,8 +11,10 @@
 namespace zerocount::comparison {
 namespace {
 
-/// Adds trials to the counts of a goal. @param first index of the first of these trials at its design point
-/// @param moves number of moves of each trial @param outcomes [trial][move], flattened
+/// Adds trials to the counts of a goal.
+/// @param first index of the first of these trials at its design point
+/// @param moves number of moves of each trial
+/// @param outcomes [trial][move], flattened
 void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
                  std::span<const trial::MoveOutcome> outcomes) {
   for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
@@ -39,8 +41,8 @@ PointTrials empty_trials(std::int64_t moves, const AlsoRead& also, const layout:
   return trials;
 }
 
-/// Adds the compared values of further trials. @param outcomes outcomes of all their moves, [trial][move],
-/// flattened
+/// Adds the compared values of further trials.
+/// @param outcomes outcomes of all their moves, [trial][move], flattened
 void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
   for (GoalTrials& goal : trials.required) add_to_goal(goal, trials.trials, trials.moves, outcomes);
   for (GoalTrials& goal : trials.judged) {

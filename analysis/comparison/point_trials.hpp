@@ -27,7 +27,8 @@ struct GoalTrials {
   /// [trial] Number of moves that meet the goal, among those that it judges.
   std::vector<double> moves_in_goal{};
 
-  /// Number of moves of a trial that the goal judges. @param moves number of moves of a trial
+  /// Number of moves of a trial that the goal judges.
+  /// @param moves number of moves of a trial
   std::int64_t asked_moves(std::int64_t moves) const { return measures::asked_moves(counted, moves); }
   /// Key of the goal's settling times in PointTrials::values: "goal_settling_time", or with the goal's name
   /// "goal_settling_time[large]".
@@ -66,8 +67,8 @@ struct PointTrials : AlsoRead {
   }
 };
 
-/// The compared values of trials that are in memory. @param outcomes outcomes of all moves of the trials,
-/// [trial][move], flattened
+/// The compared values of trials that are in memory.
+/// @param outcomes outcomes of all moves of the trials, [trial][move], flattened
 /// @param moves number of moves of each trial
 PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
                           const AlsoRead& also = {},

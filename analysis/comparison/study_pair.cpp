@@ -32,9 +32,10 @@ std::string some_of(const std::vector<std::string>& names) {
   return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;
 }
 
-/// Requires that both files have the same names of something, such as design points. @param before names in
-/// the baseline @param after names in the current file @param what noun for the things with these names:
-/// "design points"
+/// Requires that both files have the same names of something, such as design points.
+/// @param before names in the baseline
+/// @param after names in the current file
+/// @param what noun for the things with these names: "design points"
 /// @throws Failure (bad_data) with a list of the names without a partner
 void require_same_names(const StudyPair& pair, const std::vector<std::string>& before,
                         const std::vector<std::string>& after, std::string_view what) {
@@ -114,7 +115,8 @@ std::vector<std::string> labels_of_settings(const AllTrialsFile& file) {
 }
 
 /// Replaces each matched design point of the pair by one entry for each setting that it has; ordered by
-/// point, then by setting. @throws Failure (bad_data) if the files have different settings
+/// point, then by setting.
+/// @throws Failure (bad_data) if the files have different settings
 void match_settings(StudyPair& pair) {
   const std::vector<std::string> names = labels_of_settings(pair.baseline.file);
   require_same_names(pair, names, labels_of_settings(pair.current.file), "conditions");
@@ -187,16 +189,16 @@ std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector
   return all;
 }
 
-/// Throws the message that the manifest of the file has no goal, although one is needed. @param purpose
-/// clause that says what the goal is needed for
+/// Throws the message that the manifest of the file has no goal, although one is needed.
+/// @param purpose clause that says what the goal is needed for
 /// @throws Failure (bad_input) always
 [[noreturn]] void refuse_without_goal(const AllTrialsFile& file, std::string_view purpose) {
   throw Failure(ExitCode::bad_input, fmt::format("{}: its manifest has no goal, {}; {}", file.path().string(),
                                                  purpose, expected_goal));
 }
 
-/// The measure with the same band or tolerance in the file's own table. @param wanted measure of an error
-/// band or tolerance that a requirement names
+/// The measure with the same band or tolerance in the file's own table.
+/// @param wanted measure of an error band or tolerance that a requirement names
 /// @throws Failure (bad_input) if the file lacks it
 GateMeasure in_file(const AllTrialsFile& file, const GateMeasure& wanted) {
   const bool of_tolerance = wanted.measure->tolerance.has_value();

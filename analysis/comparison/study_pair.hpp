@@ -67,19 +67,20 @@ struct StudyPair {
 StudyPair pair_studies(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                        const GateRules& rules);
 
-/// Treats two design points of one file as a pair to be compared. @param baseline, current indices of the
-/// points @throws Failure in the cases of pair_studies() and require_independent_trials()
+/// Treats two design points of one file as a pair to be compared.
+/// @param baseline, current indices of the points
+/// @throws Failure in the cases of pair_studies() and require_independent_trials()
 StudyPair pair_points(const reading::AllTrialsFile& file, std::int64_t baseline, std::int64_t current,
                       const GateRules& rules);
 
 /// Rejects a study with a saltelli design (sampling for Sobol' indices). Every test assumes independent
-/// trials, but the trials of such a design share most of their random numbers. @throws Failure (bad_data) for
-/// a saltelli design
+/// trials, but the trials of such a design share most of their random numbers.
+/// @throws Failure (bad_data) for a saltelli design
 void require_independent_trials(const ComparedStudy& study);
 
 /// The user's rules adapted to the matched files: the rules for a design point are copied to each of its
-/// settings, and the requirement `goal` becomes one for each goal of the current file. @throws Failure
-/// (bad_input) if the rules name a measure of a goal that is not judged
+/// settings, and the requirement `goal` becomes one for each goal of the current file.
+/// @throws Failure (bad_input) if the rules name a measure of a goal that is not judged
 GateRules rules_for(const StudyPair& pair, const GateRules& rules);
 
 /// Largest number of trials of each design point that are compared by these rules.

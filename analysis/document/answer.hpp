@@ -75,8 +75,8 @@ std::vector<Figure> figures(const Answer& answer);
 /// @param indent number of blanks per level; text::one_line: no line breaks
 void write_json(const Answer& answer, int indent, const std::function<void(std::string_view)>& take);
 
-/// The JSON text of the answer, as write_json() passes it, in one piece. @param indent number of blanks per
-/// level; text::one_line: no line breaks
+/// The JSON text of the answer, as write_json() passes it, in one piece.
+/// @param indent number of blanks per level; text::one_line: no line breaks
 std::string json_text(const Answer& answer, int indent = 2);
 
 /// The answer as a tree of JSON values. The tree of a large answer takes much memory; json_text() takes less.

@@ -121,8 +121,8 @@ bool is_flat(const Item& item) {
   return shown_kind(item) == Kind::object && item.heading.empty();
 }
 
-/// Appends a column of a table for each item, except for items without any known value. @param rows [row]
-/// contents of the items; null if the row has none
+/// Appends a column of a table for each item, except for items without any known value.
+/// @param rows [row] contents of the items; null if the row has none
 void add_columns(std::vector<BlockColumn>& columns, const std::vector<Item>& items,
                  const std::vector<const Members*>& rows) {
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -229,8 +229,8 @@ std::vector<std::string> sentences_of(const std::vector<Item>& items, const Memb
   return sentences;
 }
 
-/// The sentences of all rows of an own_table(), one per line. @param is_named whether the first column names
-/// the row; each sentence then begins with this name
+/// The sentences of all rows of an own_table(), one per line.
+/// @param is_named whether the first column names the row; each sentence then begins with this name
 std::string sentences_below(const ItemWithRows& own, bool is_named) {
   std::string text;
   for (const Members& row : own.rows.rows) {

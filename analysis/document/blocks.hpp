@@ -72,8 +72,8 @@ std::vector<Block> blocks(const Answer& answer);
 /// The block as a fragment of HTML.
 std::string html(const Block& block);
 
-/// The answer for people as plain text, fitted to a terminal. @param width columns of the terminal, at least
-/// 20; empty: no limit
+/// The answer for people as plain text, fitted to a terminal.
+/// @param width columns of the terminal, at least 20; empty: no limit
 std::string text(const Answer& answer, std::optional<std::size_t> width);
 
 /// Text of a value for people, without its unit; "–" if the value is unknown.

@@ -22,8 +22,8 @@ struct Bounded {
   double high;
 };
 
-/// The number `value` with the members `low` and `high` of `bounds`. @param bounds any type with members
-/// `low` and `high`
+/// The number `value` with the members `low` and `high` of `bounds`.
+/// @param bounds any type with members `low` and `high`
 Bounded bounded(double value, const auto& bounds) {
   return {value, bounds.low, bounds.high};
 }

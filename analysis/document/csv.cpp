@@ -17,8 +17,9 @@ std::string csv_number(double value) {
 /// The names and cells of the columns of one line of CSV.
 class CsvLine {
  public:
-  /// Adds the columns of all items that CSV shows. @param members contents of the items; null: only the names
-  /// of the columns matter @param prefix beginning of the names of the columns
+  /// Adds the columns of all items that CSV shows.
+  /// @param members contents of the items; null: only the names of the columns matter
+  /// @param prefix beginning of the names of the columns
   void add(const std::vector<Item>& items, const Members* members, const std::string& prefix = "") {
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (!is_data(items[i])) continue;
@@ -28,7 +29,8 @@ class CsvLine {
   }
 
   /// Adds the columns of an outer table, whose row holds the table of this line. Only items with a single
-  /// value are added. @param members contents of the outer row; null: only the names of the columns matter
+  /// value are added.
+  /// @param members contents of the outer row; null: only the names of the columns matter
   /// @param table key of the outer table
   void add_values(const std::vector<Item>& items, const Members* members, const std::string& table) {
     for (std::size_t i = 0; i < items.size(); ++i) {
@@ -112,7 +114,8 @@ class CsvLine {
   std::vector<std::string> outer_tables_;
 };
 
-/// Appends the lines of a table. @param path keys of nested tables, separated by dots, the outermost first
+/// Appends the lines of a table.
+/// @param path keys of nested tables, separated by dots, the outermost first
 /// @param members contents of the items; null: append only the line of names
 /// @param line columns with which each line begins
 void add_lines(std::string& csv, const std::vector<Item>& items, const Members* members,

@@ -138,7 +138,8 @@ inline Item in_data(std::string key, std::string meaning, std::string unit = {})
           .shown = Visibility::in_data};
 }
 
-/// The item, restricted to certain texts (Item::words). @param words all values that the text can have
+/// The item, restricted to certain texts (Item::words).
+/// @param words all values that the text can have
 inline Item with_words(Item item, std::vector<std::string> words) {
   item.words = std::move(words);
   return item;

@@ -24,8 +24,8 @@ struct Machine {
   fit::ContactParameters contact;  ///< Parameters of the friction contact at the position of the test.
 };
 
-/// The median machine: each quantity that the manifest draws has its median. @param point index of the design
-/// point
+/// The median machine: each quantity that the manifest draws has its median.
+/// @param point index of the design point
 Machine median_machine(const study::Study& study, std::int64_t point);
 
 /// The first `count` machines of the study at the design point; in a study without machines, those of its

@@ -35,8 +35,9 @@ double ring_down_time(const fit::ContactParameters& contact) {
   return 0.5 * (damping + std::sqrt(discriminant)) / contact.friction.k1;
 }
 
-/// The limits (torque, number of samples, ring-down time) of a protocol for all the machines. @param machines
-/// the median machine first @param least_breakaway smallest breakaway torque of all machines, N m
+/// The limits (torque, number of samples, ring-down time) of a protocol for all the machines.
+/// @param machines the median machine first
+/// @param least_breakaway smallest breakaway torque of all machines, N m
 ProtocolFrame frame_for(const std::vector<Machine>& machines, const DesignSettings& settings,
                         double least_breakaway) {
   const trial::TrialParameters& median = machines.front().parameters;
@@ -71,8 +72,9 @@ double guess_of(const fit::ContactParameters& contact, std::size_t parameter) {
   return values[parameter];
 }
 
-/// Relative half-width of the interval of a parameter: half-width divided by value. @param parameter index in
-/// fit::coordinate_keys @param width half-width on the scale of Widths
+/// Relative half-width of the interval of a parameter: half-width divided by value.
+/// @param parameter index in fit::coordinate_keys
+/// @param width half-width on the scale of Widths
 double relative_width(std::size_t parameter, double width, const fit::ContactParameters& contact) {
   return parameter == fit::creep_exponent ? width / contact.friction.n : std::sinh(width);
 }

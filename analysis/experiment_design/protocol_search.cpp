@@ -80,7 +80,8 @@ class ProtocolSearch {
   }
 
   /// Tries to change each property of the shape by one step, up or down, and keeps each change that is
-  /// better. @returns whether any change was better.
+  /// better.
+  /// @returns whether any change was better.
   bool improve_once() {
     bool improved = false;
     for (std::size_t axis = 0; axis < best_.size(); ++axis) {

@@ -123,8 +123,8 @@ TorqueProtocol sampled_protocol(std::span<const ProtocolSegment> segments, const
 
 namespace {
 
-/// A text table with a row for each sample: time, torque, and the result of `last(sample)`. @param last_name
-/// head of the last column
+/// A text table with a row for each sample: time, torque, and the result of `last(sample)`.
+/// @param last_name head of the last column
 template <class Last>
 std::string table_of(const ExperimentDesign& design, std::string_view last_name, const Last& last) {
   const TorqueProtocol& protocol = design.protocol;

@@ -93,7 +93,8 @@ LongSteps long_steps(const AxisParameters& axis) {
 }
 
 /// Adds the twist of a compliance in series to the path: compliance (in units of the readings/(N m)) times
-/// the torque that acted until each reading. @param offset time offset of the torque, samples
+/// the torque that acted until each reading.
+/// @param offset time offset of the torque, samples
 void add_twist(const TestRecord& record, double compliance, double offset, Eigen::VectorXd& path) {
   const double delay = record.delay_fraction + offset;
   const auto last = static_cast<double>(record.torque.size() - 1);

@@ -41,8 +41,9 @@ struct AngleObservation {
 /// The choice between these cases depends only on `path`, not on the readings, because a choice by the
 /// readings would bias the errors.
 /// Masked samples give none.
-/// @param path [sample] approximate rotor angle, including the encoder's phase. @param noise standard
-/// deviation of the readings before they are rounded to counts. All in the record's unit.
+/// @param path [sample] approximate rotor angle, including the encoder's phase.
+/// @param noise standard deviation of the readings before they are rounded to counts. All in the record's
+/// unit.
 void observe(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings,
              double noise, std::vector<AngleObservation>& observations);
 

@@ -12,8 +12,8 @@ namespace zerocount::fit {
 
 namespace {
 
-/// Fills in the samples inside a long step of `m` samples by cubic Hermite interpolation. @param first index
-/// of the sample at which the step begins
+/// Fills in the samples inside a long step of `m` samples by cubic Hermite interpolation.
+/// @param first index of the sample at which the step begins
 void fill_between(SampledPath& path, Eigen::Index first, std::size_t m) {
   const Eigen::Index last = first + static_cast<Eigen::Index>(m);
   const double from = path.angle[first];
@@ -191,8 +191,8 @@ double torque_at(const TestRecord& record, std::ptrdiff_t sample) {
 }
 
 /// The branches of a record: its parts between turning points of the torque. A turning point is an extreme
-/// after which the torque returns by more than a threshold. @param range range of the torque, of which the
-/// threshold is a fraction
+/// after which the torque returns by more than a threshold.
+/// @param range range of the torque, of which the threshold is a fraction
 std::vector<LoadingBranch> branches_of(const TestRecord& record, double range) {
   const double threshold = reversal_threshold * range;
   std::vector<LoadingBranch> branches;

@@ -119,8 +119,9 @@ bool has_slow_branches(std::span<const TestRecord> records);
 /// True if the records have slow branches without steps (is_gradual()), and no ring-downs.
 bool are_slow_alone(std::span<const TestRecord> records);
 
-/// Throws the Failure that refuses a record. @param place the record's name, or a line of its file, at which
-/// the reason was found @param reason reason with the words and units of any axis (parameters::text_on())
+/// Throws the Failure that refuses a record.
+/// @param place the record's name, or a line of its file, at which the reason was found
+/// @param reason reason with the words and units of any axis (parameters::text_on())
 /// @throws Failure (bad_data) always
 [[noreturn]] void refuse(parameters::AxisKind axis, const std::string& place, const std::string& reason);
 

@@ -79,8 +79,8 @@ inline document::Item for_people(const char* key, const char* heading, bool nume
   return {.key = key, .heading = heading, .shown = document::Visibility::to_people, .numeric = numeric};
 }
 
-/// Text of a length on an axis with its unit: "1.23e-06 m". @param axis kind of the axis: rad for rotary, m
-/// for linear
+/// Text of a length on an axis with its unit: "1.23e-06 m".
+/// @param axis kind of the axis: rad for rotary, m for linear
 std::string length_text(double length, parameters::AxisKind axis);
 
 /// The item of an answer that states the kind of axis, with the words of parameters::axis_labels.

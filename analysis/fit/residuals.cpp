@@ -58,8 +58,9 @@ ResidualStatistics residual_statistics(const std::vector<double>& residuals) {
 namespace {
 
 /// Normalised residuals (observed − modelled angle)/√variance of all observations along the paths, plus the
-/// effect of `step` in the linearised model. @param paths [record] modelled path @param step change of all
-/// unknowns; empty: 0
+/// effect of `step` in the linearised model.
+/// @param paths [record] modelled path
+/// @param step change of all unknowns; empty: 0
 std::vector<double> residuals_along(const FittedModel& model, const std::vector<Eigen::VectorXd>& paths,
                                     const Observations& observations, const Eigen::VectorXd& step) {
   std::vector<double> residuals;

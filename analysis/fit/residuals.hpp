@@ -152,8 +152,8 @@ Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd&
 double misfit_along(const TestRecord& record, const Eigen::VectorXd& path);
 
 /// True if quantisation and noise roughly explain the residuals of a record. For counts the test is the
-/// distance of the path from the counts, for other readings the autocorrelation of the residuals. @param path
-/// [sample] modelled angle, in the record's unit
+/// distance of the path from the counts, for other readings the autocorrelation of the residuals.
+/// @param path [sample] modelled angle, in the record's unit
 bool is_explained(const TestRecord& record, const Eigen::VectorXd& path);
 
 /// Index of a sample whose reading is an outlier; null if there is none. The residual of an outlier exceeds

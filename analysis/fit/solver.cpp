@@ -113,7 +113,8 @@ class JointResiduals : public ceres::CostFunction {
 
   /// The modelled motions at the point; simulates them unless they are known. Counts the samples of what is
   /// asked for, not of what is simulated ahead, so that the end of the search does not depend on the number
-  /// of threads. @param with_slopes whether the derivatives are needed
+  /// of threads.
+  /// @param with_slopes whether the derivatives are needed
   const std::vector<RecordMotion>& motions_at(const Point& axis, bool with_slopes) const {
     if (last_.motions.empty() || last_.axis != axis) {
       last_ = {axis, {}};

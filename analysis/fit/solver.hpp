@@ -107,13 +107,13 @@ struct SearchRound {
 using SearchRounds = std::initializer_list<SearchRound>;
 
 /// Continues the best of the fits, in parallel. Each round continues fewer fits by more steps (successive
-/// halving: Jamieson & Talwalkar, AISTATS 2016). @returns the fits of the last round with a finite sum of
-/// squares, sorted by it
+/// halving: Jamieson & Talwalkar, AISTATS 2016).
+/// @returns the fits of the last round with a finite sum of squares, sorted by it
 std::vector<FitResult> follow_best(Records records, const Observations& observations,
                                    std::vector<FitResult> fits, FitSetting setting, SearchRounds rounds);
 
-/// Searches minima from many starting points by follow_best(). @returns the fits whose sum of squares is
-/// within four times the smallest one
+/// Searches minima from many starting points by follow_best().
+/// @returns the fits whose sum of squares is within four times the smallest one
 std::vector<FitResult> promising_fits(Records records, const Observations& observations,
                                       const std::vector<Point>& starts, const FitSetting& setting,
                                       SearchRounds rounds = {{6, 4}, {3, 8}});
@@ -127,7 +127,8 @@ struct FittedModel {
 FittedModel model_at(Records records, const FitPoint& point, const FitSetting& setting);
 
 /// [record] The readings converted to observations with independent errors (see observe()), along the paths
-/// of a model. @param noise [record] standard deviation of the readings' noise, in the record's unit
+/// of a model.
+/// @param noise [record] standard deviation of the readings' noise, in the record's unit
 Observations observations_along(Records records, const FittedModel& model, const std::vector<double>& noise);
 
 /// Whether all values of the simulated motion are finite.
@@ -171,8 +172,8 @@ NormalEquations normal_equations(const FittedModel& model, const Observations& o
 
 /// Looks for better points near the model's point. Adds each of `changes` to it. Then one step of linear
 /// least squares with the model's sensitivities adapts the free coordinates of `setting` and the offsets. The
-/// sums of squares are those of the linear model. @returns the points whose sum is smaller than the model's
-/// by more than chance, sorted by it
+/// sums of squares are those of the linear model.
+/// @returns the points whose sum is smaller than the model's by more than chance, sorted by it
 std::vector<FitResult> better_points(Records records, const Observations& observations,
                                      const FittedModel& model, const FitSetting& setting,
                                      const std::vector<Point>& changes);

@@ -42,8 +42,8 @@ measures::MoveCounts larger_study(const measures::MoveCounts& counts, double fac
 }
 
 /// The expected counts of a study on `machines` machines that resemble the observed ones: machine i equals
-/// the quantile (i + ½)/machines of the observed machines. @param sorted observed machines by rising number
-/// of moves that meet the goal
+/// the quantile (i + ½)/machines of the observed machines.
+/// @param sorted observed machines by rising number of moves that meet the goal
 measures::MoveCounts machines_like(std::vector<statistics::MachineMoves> sorted, std::int64_t machines) {
   measures::MoveCounts counts;
   for (std::int64_t i = 0; i < machines; ++i) {
@@ -98,8 +98,9 @@ struct Chances {
 /// range of proportions open that no study decides, so the probability of a decision would stay limited.
 class ObservedWorld {
  public:
-  /// Prepares the probabilities for a goal in one world. @param counts observed counts in this world, with at
-  /// least one move @param points, parts as for judge_goal()
+  /// Prepares the probabilities for a goal in one world.
+  /// @param counts observed counts in this world, with at least one move
+  /// @param points, parts as for judge_goal()
   ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points, std::size_t parts)
       : goal_(goal),
         counts_(std::move(counts)),
@@ -322,8 +323,9 @@ class ObservedStudy {
 };
 
 /// The smallest number of machines (in a study without machines: of trials) with which a study shows that the
-/// goal is met if no move misses it; 0 if there is none. @param trials number of trials on each machine; 0:
-/// no trials share a machine @param points number of design points among which the best is chosen
+/// goal is met if no move misses it; 0 if there is none.
+/// @param trials number of trials on each machine; 0: no trials share a machine
+/// @param points number of design points among which the best is chosen
 std::int64_t smallest_without_miss(const AskedGoal& asked, std::int64_t trials, std::size_t points) {
   const auto met = [&](const measures::MoveCounts& counts) {
     return judge_goal(asked.goal, counts, points).status == Status::met;

@@ -91,8 +91,8 @@ std::string indented(const std::string& line) {
   return line.empty() ? line : "  " + line;
 }
 
-/// The number of machines in the counts, and the numbers of trials and moves of one machine. @param counts
-/// counts of a study with machines
+/// The number of machines in the counts, and the numbers of trials and moves of one machine.
+/// @param counts counts of a study with machines
 statistics::MachineStudy shape_of(const measures::MoveCounts& counts) {
   return {std::ssize(counts.machines), counts.machines.front().trials, counts.machines.front().moves};
 }

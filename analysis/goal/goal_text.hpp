@@ -11,8 +11,8 @@
 
 namespace zerocount::goal {
 
-/// Text of the time within which a goal must be met: "after 0.05 s", "0.25 s after the profile". @param time
-/// text of the time with its unit
+/// Text of the time within which a goal must be met: "after 0.05 s", "0.25 s after the profile".
+/// @param time text of the time with its unit
 std::string after_text(const study::TimeLimit& limit, const std::string& time);
 
 /// Text that names the mass whose error a goal judges on an axis with two masses: " of the load" or " of the
@@ -37,8 +37,8 @@ std::string readings_text(const study::Goal& goal, const measures::MoveCounts& c
                           const ClaimVerdict& verdict);
 
 /// The proportions behind the verdict on a design point, with their bounds: readings_text() of the goal. If
-/// the question has several goals: of each goal, with its name and verdict. @param verdict verdict on the
-/// point
+/// the question has several goals: of each goal, with its name and verdict.
+/// @param verdict verdict on the point
 std::string goals_text(const Question& question, const measures::PointSummary& point, const Verdict& verdict);
 
 /// Predicate for a move that does not meet the question: "misses the goal: |error| ≤ 1 count for good after
@@ -54,13 +54,14 @@ std::string ending_text(const Question& question, std::span<const trial::MoveOut
 
 /// One line that says why the moves of one machine are too few: "40 moves in 10 trials cannot show 99 % of
 /// one machine: 299 trials without a miss are needed; …". Empty if a machine without a miss is shown to meet
-/// the goal, if the verdict is decided, and if the goal is not about machines. @param study machines, trials
-/// and moves that the goal judges
+/// the goal, if the verdict is decided, and if the goal is not about machines.
+/// @param study machines, trials and moves that the goal judges
 std::string one_machine_text(const study::Goal& goal, const statistics::MachineStudy& study,
                              const ClaimVerdict& verdict);
 
 /// Sentence on the study size that decides the goal: "About 300 machines with 100 trials each decide it with
-/// a probability of 90 %, …", or that no study decides it. @param on_machines whether trials share machines
+/// a probability of 90 %, …", or that no study decides it.
+/// @param on_machines whether trials share machines
 std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_machines);
 
 /// All texts for a Status, in the order of the enumerators: "met", "missed", "undecided".

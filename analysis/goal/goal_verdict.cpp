@@ -68,8 +68,8 @@ double observed_margin(const BoundedProportion& proportion, double wanted) {
   return logit_difference(proportion.value, wanted);
 }
 
-/// Standing (rank) of a verdict, by its status first. @param verdict verdict whose status and proportions are
-/// set
+/// Standing (rank) of a verdict, by its status first.
+/// @param verdict verdict whose status and proportions are set
 Standing standing_of(const study::Goal& goal, const WorldVerdict& verdict) {
   const BoundedProportion& claimed = goal.machines ? verdict.machines : verdict.moves;
   const double wanted = goal.machines.value_or(goal.moves);
@@ -82,8 +82,10 @@ Standing standing_of(const study::Goal& goal, const WorldVerdict& verdict) {
   return standing;
 }
 
-/// Judges a claim: one goal in one setting. @param worlds [world] counts of the moves in each world, in each
-/// of which the claim must hold; a single element without worlds @param points, parts as for judge_goals()
+/// Judges a claim: one goal in one setting.
+/// @param worlds [world] counts of the moves in each world, in each of which the claim must hold; a single
+/// element without worlds
+/// @param points, parts as for judge_goals()
 ClaimVerdict judge_claim(const study::Goal& goal, std::span<const measures::MoveCounts> worlds,
                          std::size_t points, std::size_t parts) {
   const Confidences confidence(goal, points, parts * worlds.size());

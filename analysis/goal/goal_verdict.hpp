@@ -83,19 +83,20 @@ struct Verdict : ClaimVerdict {
   std::vector<ClaimVerdict> claims{};  ///< Verdicts on the single claims: [goal, setting], flattened.
 };
 
-/// The verdicts on each goal in each setting, and the verdict on all of them together. @param counts [goal]
-/// counts of the moves @param points number of design points from which the point was chosen by its trials; 1
-/// if it was chosen before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni). @param parts
-/// number of parts in each of which all these claims must be met
+/// The verdicts on each goal in each setting, and the verdict on all of them together.
+/// @param counts [goal] counts of the moves
+/// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
+/// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
+/// @param parts number of parts in each of which all these claims must be met
 Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
                     std::size_t points, std::size_t parts = 1);
 inline Verdict judge_goal(const study::Goal& goal, const measures::CellCounts& counts, std::size_t points,
                           std::size_t parts = 1) {
   return judge_goals({&goal, 1}, {&counts, 1}, points, parts);
 }
-/// The verdict on one goal from the moves of one world (a draw of what all machines share). @param points
-/// number of design points from which the point was chosen; 1 if it was chosen before @param parts number of
-/// claims that must all be met
+/// The verdict on one goal from the moves of one world (a draw of what all machines share).
+/// @param points number of design points from which the point was chosen; 1 if it was chosen before
+/// @param parts number of claims that must all be met
 ClaimVerdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
                         std::size_t parts = 1);
 
@@ -138,12 +139,15 @@ inline constexpr double probability_of_needs = 0.9;
 /// Without machines the result is one study, the smallest. With machines it is the study with the fewest
 /// machines, at most 10⁵, and as many trials on each machine as observed. For goals on machines there follow
 /// studies with twice, four times … as many trials on each machine, as long as these save machines. Empty if
-/// no study is large enough. @param counts [goal] @param points as for judge_goals()
+/// no study is large enough.
+/// @param counts [goal]
+/// @param points as for judge_goals()
 std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
                                     std::span<const measures::CellCounts> counts, std::size_t points,
                                     double probability = probability_of_needs);
 
-/// The study with the fewest trials. @param studies at least one study
+/// The study with the fewest trials.
+/// @param studies at least one study
 const Needs& cheapest(std::span<const Needs> studies);
 
 /// The study with the fewest trials among those that decide all goals with this probability; see
@@ -173,13 +177,14 @@ struct StudyShape {
 
 /// The smallest studies that can meet the goals, if no move misses them. With machines: for several numbers
 /// of trials on each machine, the fewest machines that suffice. Without machines: one study. Empty if no
-/// study of up to 10⁹ trials or 10⁵ machines can meet them. @param points number of design points from which
-/// the best is chosen
+/// study of up to 10⁹ trials or 10⁵ machines can meet them.
+/// @param points number of design points from which the best is chosen
 std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const StudyShape& shape,
                                     std::size_t points);
-/// The smallest studies that can meet one goal in one setting, if no move misses it. @param on_machines
-/// whether trials share machines @param moves number of moves per trial that the goal judges @param points
-/// number of design points from which the best is chosen
+/// The smallest studies that can meet one goal in one setting, if no move misses it.
+/// @param on_machines whether trials share machines
+/// @param moves number of moves per trial that the goal judges
+/// @param points number of design points from which the best is chosen
 inline std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_machines, std::int64_t moves,
                                            std::size_t points, std::int64_t worlds = 0) {
   const AskedGoal asked{goal, moves};

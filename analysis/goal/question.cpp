@@ -462,7 +462,8 @@ std::size_t machine_count(const ClaimsAtAge& claims) {
 }
 
 /// The minimum over the worlds of `of(values)`, at most 1. `values` holds value(machine) of the machines in
-/// the world; without worlds all machines form one group. @param worlds number of worlds; 0: none
+/// the world; without worlds all machines form one group.
+/// @param worlds number of worlds; 0: none
 template <class Value, class Of>
 double least_of_worlds(std::size_t machines, std::int64_t worlds, const Value& value, const Of& of) {
   const auto groups = static_cast<std::size_t>(std::max<std::int64_t>(worlds, 1));
@@ -475,8 +476,8 @@ double least_of_worlds(std::size_t machines, std::int64_t worlds, const Value& v
   return least;
 }
 
-/// Observed proportion of machines that meet all claims, in the worst world. @param worlds number of worlds;
-/// 0: none
+/// Observed proportion of machines that meet all claims, in the worst world.
+/// @param worlds number of worlds; 0: none
 double proportion_meeting(const ClaimsAtAge& claims, std::int64_t worlds) {
   return least_of_worlds(
       machine_count(claims), worlds, [&](std::size_t machine) { return meets_all(claims, machine); },
@@ -485,8 +486,8 @@ double proportion_meeting(const ClaimsAtAge& claims, std::int64_t worlds) {
       });
 }
 
-/// Upper bound of the proportion of machines that meet this claim (one goal in one setting). @param claims
-/// number of claims that share the error probability (Bonferroni)
+/// Upper bound of the proportion of machines that meet this claim (one goal in one setting).
+/// @param claims number of claims that share the error probability (Bonferroni)
 double most_of(const ClaimAtAge& claim, std::size_t claims) {
   study::Goal goal = claim.goal;
   goal.confidence = statistics::confidence_of_each(goal.confidence, claims);

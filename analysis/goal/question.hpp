@@ -69,8 +69,8 @@ Question only(const Question& question, std::size_t number);
 /// @param others what the user may give instead of a goal: ", or --success"
 /// @throws Failure (bad_input) if the study has no goal
 void require_claim(const study::Study& study, std::string_view path, std::string_view others = "");
-/// Requires that the moves of the study have targets. @param path path of the manifest or file, for the
-/// message
+/// Requires that the moves of the study have targets.
+/// @param path path of the manifest or file, for the message
 /// @throws Failure (bad_input) if the study applies torque levels, whose moves have no targets
 void require_targets(const study::Study& study, std::string_view path);
 /// The question in which success (all moves end at zero counts) takes the place of the goals.
@@ -125,8 +125,9 @@ double settling_time(const Question& question, std::span<const trial::MoveOutcom
 using Badness = std::array<double, 4>;
 Badness badness_of(const Question& question, std::span<const trial::MoveOutcome> moves);
 
-/// The verdict on all goals of the question, in all settings, at a design point. @param points number of
-/// design points from which this one was chosen by its trials; 1 if it was chosen before
+/// The verdict on all goals of the question, in all settings, at a design point.
+/// @param points number of design points from which this one was chosen by its trials; 1 if it was chosen
+/// before
 Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points = 1);
 
 /// Sizes of studies that decide all goals of the question at a design point; see deciding_studies() and
@@ -155,18 +156,20 @@ struct GoalTimes {
 /// @param question a question with at least one goal
 std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point);
 /// The settling times of the goal and setting with the largest GoalTimes::time_ratio, that is, the slowest
-/// ones. @param question a question with at least one goal
+/// ones.
+/// @param question a question with at least one goal
 GoalTimes slowest_goal_times(const Question& question, const measures::PointSummary& point);
 
-/// The element of `times` for the goal and the setting of the claim. @param times goal_times() of the same
-/// point
+/// The element of `times` for the goal and the setting of the claim.
+/// @param times goal_times() of the same point
 const GoalTimes& times_of_claim(const std::vector<GoalTimes>& times, const ClaimVerdict& claim);
 /// Statistics of the final settling time for the worst claim at a point; without a claim, of the arrival
 /// time.
 const measures::MeasureStatistics& settling_of(const Question& question, const measures::PointSummary& point);
 
 /// Name of the measure of the goal's settling time, or of a statistic of this measure:
-/// "band_settling_time_p95[2]". @param statistic suffix such as "_p95"; empty: the measure itself
+/// "band_settling_time_p95[2]".
+/// @param statistic suffix such as "_p95"; empty: the measure itself
 std::string name_of_settling(const study::Goal& goal, std::string_view statistic = "");
 /// Name of the settling time of the first goal, "band_settling_time[2]"; without a goal "arrival_time".
 std::string settling_measure(const Question& question);
@@ -195,9 +198,9 @@ struct QuestionRate {
   /// Number of successes, and number of all moves or trials that are counted.
   std::int64_t hits{0}, events{0};
 };
-/// The proportion of successes at a design point with its bounds. @param points number of design points from
-/// which the point was chosen @param confidence confidence of the two-sided bounds if the question has no
-/// goal
+/// The proportion of successes at a design point with its bounds.
+/// @param points number of design points from which the point was chosen
+/// @param confidence confidence of the two-sided bounds if the question has no goal
 QuestionRate rate_of(const Question& question, const measures::PointSummary& point, std::size_t points = 1,
                      double confidence = statistics::summary_confidence);
 
@@ -236,8 +239,8 @@ inline bool is_of_worst_world(const Question& question) {
 double confidence_of(const Question& question, double others);
 
 /// Tolerance statement about the success of all machines at a design point. Its bounds account for the choice
-/// from `points` points (Bonferroni). @param stopped whether the outcomes decided the number of trials
-/// (`stop`)
+/// from `points` points (Bonferroni).
+/// @param stopped whether the outcomes decided the number of trials (`stop`)
 statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, std::size_t points,
                                          bool stopped);
 
@@ -265,7 +268,8 @@ std::vector<BoundedProportion> machines_at_ages(const Question& question,
                                                 const std::vector<measures::CellCounts>& counts);
 
 /// [machine] Life of each machine: the last age up to and including which it meets the question at every age;
-/// NaN if it does not meet it at the first age. @param counts [goal of the study] counts of the moves
+/// NaN if it does not meet it at the first age.
+/// @param counts [goal of the study] counts of the moves
 std::vector<double> lives_of_machines(const Question& question,
                                       const std::vector<measures::CellCounts>& counts);
 
@@ -275,8 +279,10 @@ struct Survival {
   /// These machines as a proportion of all machines, with one-sided Clopper–Pearson bounds.
   BoundedProportion living;
 };
-/// [age] Survival curve: the machines that meet the question at every age up to this one. @param lives
-/// [machine] lives_of_machines() @param ages ages in rising order @param confidence confidence of each bound
+/// [age] Survival curve: the machines that meet the question at every age up to this one.
+/// @param lives [machine] lives_of_machines()
+/// @param ages ages in rising order
+/// @param confidence confidence of each bound
 std::vector<Survival> survival_of(const std::vector<double>& lives, const std::vector<double>& ages,
                                   double confidence);
 

@@ -29,8 +29,9 @@ int opening_error(const std::filesystem::path& path) {
   return file.valid() ? 0 : errno;
 }
 
-/// Throws the Failure that describes a failed call of SQLite for the database at `path`. @param code error
-/// code of SQLite @param system_error errno of the call that failed, or 0
+/// Throws the Failure that describes a failed call of SQLite for the database at `path`.
+/// @param code error code of SQLite
+/// @param system_error errno of the call that failed, or 0
 [[noreturn]] void fail(const std::filesystem::path& path, int code, int system_error) {
   const auto failure = [&](ExitCode exit_code, const char* reason) {
     return Failure(exit_code, fmt::format("{}: {}", path.string(), reason));
@@ -85,8 +86,9 @@ class Patience {
   bool noticed_{false};
 };
 
-/// Callback for sqlite3_busy_handler: waits while another process uses the database. @param patience a
-/// Patience @return 1: try again; 0: give up
+/// Callback for sqlite3_busy_handler: waits while another process uses the database.
+/// @param patience a Patience
+/// @return 1: try again; 0: give up
 int wait_for_other(void* patience, int /*calls*/) {
   return static_cast<Patience*>(patience)->sleep() ? 1 : 0;
 }

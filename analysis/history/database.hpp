@@ -27,7 +27,7 @@ struct Wait {
   std::function<void()> notify{};
 };
 
-/// What add_run() changed in the history.
+/// The change that add_run() made to the history.
 enum class Addition {
   added,
   already_there,  ///< The history already contained the run; nothing changed.
@@ -36,8 +36,9 @@ enum class Addition {
 };
 
 /// Adds a run of a study to a history file; creates the file if it does not exist. Either the whole run is
-/// added or nothing. Waits while another process writes. @throws Failure: bad_data if the file is damaged, is
-/// not a history, or has a newer version of the schema; machine_failed if it cannot be written.
+/// added or nothing. Waits while another process writes.
+/// @throws Failure: bad_data if the file is damaged, is not a history, or has a newer version of the schema;
+/// machine_failed if it cannot be written.
 Addition add_run(const std::filesystem::path& database, const RunRecord& run, const Wait& wait = {});
 
 /// Whether the history contains the run of a results file with this checksum. False if there is no history

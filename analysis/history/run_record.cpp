@@ -37,8 +37,8 @@ double number_of(const Json& value) {
 }
 
 /// Reads a file with a command's answer as JSON, and calls `take` with the parsed JSON and with its text.
-/// @param command name of the command whose answer is expected @param format option that makes the command
-/// print the answer as JSON, for messages
+/// @param command name of the command whose answer is expected
+/// @param format option that makes the command print the answer as JSON, for messages
 void read_answer(const std::filesystem::path& path, std::string_view command, std::string_view format,
                  const std::function<void(const Json&, const std::string&)>& take) {
   constexpr std::size_t max_size = std::size_t{256} << 20U;  // bytes
@@ -206,7 +206,8 @@ RunValue proportion_value(const std::string& label, std::string measure, const g
 
 /// The values of one goal at a design point, with two-sided bounds like those of other values. With worlds
 /// (draws of what all machines share): the value of the worst world, with the bounds of the lowest of all.
-/// @param question a question of this goal alone @param label label of the point
+/// @param question a question of this goal alone
+/// @param label label of the point
 std::vector<RunValue> goal_values(const goal::Question& question, const measures::PointSummary& point,
                                   const std::string& label, double confidence) {
   study::Goal both_sides = *question.claim();
@@ -232,8 +233,8 @@ std::vector<RunValue> goal_values(const goal::Question& question, const measures
   return values;
 }
 
-/// Appends the values of a summary whose trials are all in one setting. @param setting label of the setting
-/// (a condition at an age); empty without settings
+/// Appends the values of a summary whose trials are all in one setting.
+/// @param setting label of the setting (a condition at an age); empty without settings
 void add_values(std::vector<RunValue>& values, const summary::StudySummary& summary,
                 const std::string& setting) {
   for (std::size_t i = 0; i < summary.points.size(); ++i) {

@@ -86,15 +86,17 @@ std::string series_sha256(const reading::AllTrialsFile& file);
 
 /// The record of a complete results file for the history: its values with the bounds of its summary, for each
 /// design point in each setting. First come the measures of its goals, if it has any
-/// (comparison::goal_measures), then the gate measures. @throws Failure: inconclusive if there is no value,
-/// bad_input if the trials are not independent, and in the cases of summarise().
+/// (comparison::goal_measures), then the gate measures.
+/// @throws Failure: inconclusive if there is no value, bad_input if the trials are not independent, and in
+/// the cases of summarise().
 RunRecord record_of(const reading::AllTrialsFile& file);
 
 /// Converts an answer of `zerocount monitor` (a JSON file) to a run for the history. The machine serves as
 /// design point, and a value is the median of a measure over the moves. It is compared with the baseline's
 /// median; 1 divided by the evidence against no change serves as p. All answers with the same baseline form
-/// one series. Null for a file whose name does not end in .json. @throws Failure: bad_data if the file is not
-/// such JSON, bad_input for another answer, inconclusive without moves
+/// one series. Null for a file whose name does not end in .json.
+/// @throws Failure: bad_data if the file is not such JSON, bad_input for another answer, inconclusive without
+/// moves
 std::optional<RunRecord> monitor_record(const std::filesystem::path& json);
 
 /// Adds to a run its comparison with a baseline, from the JSON answer of `zerocount compare`.

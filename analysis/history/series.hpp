@@ -94,8 +94,10 @@ struct History {
 
 /// Groups runs into series of one measure at one design point, and finds the changes of each series. With m
 /// series, the probability of a false alarm within false_alarm_runs runs is false_alarm_probability/m in each
-/// (Bonferroni). @param runs sorted by time @param filter selection of the series @throws Failure (bad_input)
-/// if the filter leaves nothing; the message lists what there is.
+/// (Bonferroni).
+/// @param runs sorted by time
+/// @param filter selection of the series
+/// @throws Failure (bad_input) if the filter leaves nothing; the message lists what there is.
 History history_of(const std::vector<RunRecord>& runs, const SeriesFilter& filter = {});
 
 /// The answer of `history show`: a row per series, the changes in words, and for a single series every run.

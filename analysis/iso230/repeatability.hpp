@@ -89,9 +89,9 @@ struct Repeatability {
   std::vector<TargetRepeatability> targets;  ///< [target] Quantities of ISO 230-2 for each target position.
 };
 
-/// The quantities of ISO 230-2 for one run of the test. @param targets [target] deviations at each target.
-/// Equal deviations at a target that are whole numbers, such as counts, give a standard deviation si of
-/// exactly 0.
+/// The quantities of ISO 230-2 for one run of the test.
+/// @param targets [target] deviations at each target. Equal deviations at a target that are whole numbers,
+/// such as counts, give a standard deviation si of exactly 0.
 Repeatability repeatability_of(std::span<const TargetDeviations> targets);
 
 /// Numbers of targets and approaches in a sequence of moves.

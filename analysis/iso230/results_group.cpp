@@ -53,7 +53,8 @@ const DeviationSources& stored_sources(const hdf5::Group& root, const study::Stu
 }
 
 /// Finds whether the trials of a design point have a second mass, and which mass closes the loop. Trials of a
-/// point differ in this only between settings. @param number index of the point
+/// point differ in this only between settings.
+/// @param number index of the point
 void find_masses(const study::Study& study, std::int64_t number, PointRepeatability& point) {
   bool differ = false;
   for (std::int64_t setting = 0; setting < study.settings.total(); ++setting) {

@@ -19,7 +19,8 @@ namespace zerocount::iso230 {
 void write_repeatability(hdf5::File& file, const study::Study& study);
 
 /// The statistics of the ISO 230-2 quantities at every design point, computed from the values of the trials
-/// in the file. @throws Failure (bad_data) if the values are missing or do not belong to the study.
+/// in the file.
+/// @throws Failure (bad_data) if the values are missing or do not belong to the study.
 RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::Study& study,
                                         double confidence = statistics::summary_confidence);
 

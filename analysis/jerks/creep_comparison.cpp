@@ -101,8 +101,8 @@ class WaitFollower {
     arrived_ = false;
   }
 
-  /// Ends the current wait, if there is one, at sample `k` of the move. @param by_jerk true if a jerk ended
-  /// it, false if the move did
+  /// Ends the current wait, if there is one, at sample `k` of the move.
+  /// @param by_jerk true if a jerk ended it, false if the move did
   void close(std::int64_t k, bool by_jerk) {
     if (zeros_ > 0 && !state_) ++comparison_.too_short;
     if (state_ && !steady_) ++comparison_.unsteady;

@@ -33,8 +33,8 @@ using document::bounded;
 using document::Description;
 using document::everywhere;
 
-/// An item of the answer that is a single value. People see its meaning in place of a heading. @param key
-/// name in JSON
+/// An item of the answer that is a single value. People see its meaning in place of a heading.
+/// @param key name in JSON
 document::Item fact(const char* key, const char* meaning, const char* unit = "") {
   return everywhere(key, meaning, meaning, unit);
 }

@@ -40,8 +40,8 @@ bool have_own_timing(const study::Study& study) {
 }
 
 /// Number of observed samples of a move, from its arrival to its end. A move that was stopped early had
-/// diverged: it counts as a jerk that lasted to the end of the observation. @param samples planned number of
-/// samples of the move
+/// diverged: it counts as a jerk that lasted to the end of the observation.
+/// @param samples planned number of samples of the move
 std::int64_t observed_end(const ObservedMove& observed, const trial::MoveOutcome& move,
                           std::int64_t samples) {
   if (!move.stopped || observed.jerks.empty()) return samples - move.arrival;

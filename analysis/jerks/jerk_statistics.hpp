@@ -52,8 +52,9 @@ struct ObservedMove {
 void for_each_run_at_risk(const ObservedMove& move,
                           const std::function<void(std::int64_t, std::int64_t)>& take);
 
-/// Calls `take` for each move of a design point, in order of trial and move. @throws Failure (bad_data) if
-/// the jerks of a trial do not match the numbers that its moves counted, or are outside the time of the move.
+/// Calls `take` for each move of a design point, in order of trial and move.
+/// @throws Failure (bad_data) if the jerks of a trial do not match the numbers that its moves counted, or are
+/// outside the time of the move.
 void for_each_move(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
                    const std::function<void(const ObservedMove&)>& take);
 
@@ -133,15 +134,16 @@ JerkStatistics jerk_statistics(const reading::AllTrialsFile& file, const study::
 /// ranges end at 10^(j/5) s for integers j: five per decade.
 class JerkRates {
  public:
-  /// Creates an empty count. @param clusters_return whether the moves of one cluster may be interleaved with
-  /// those of others: true if clusters are machines, false if they are trials
+  /// Creates an empty count.
+  /// @param clusters_return whether the moves of one cluster may be interleaved with those of others: true if
+  /// clusters are machines, false if they are trials
   explicit JerkRates(bool clusters_return = false) : clusters_return_(clusters_return) {}
-  /// Adds the jerks and the exposure of a move. @param move a move that arrived and was not lost. Moves must
-  /// be added in order of their trials.
+  /// Adds the jerks and the exposure of a move.
+  /// @param move a move that arrived and was not lost. Moves must be added in order of their trials.
   void add(const ObservedMove& move);
   /// Rates in the ranges with bounds, in order of time. The first range begins with the earliest possible
-  /// jerk of any move. The last range ends with the longest observation. @param confidence confidence of the
-  /// bounds
+  /// jerk of any move. The last range ends with the longest observation.
+  /// @param confidence confidence of the bounds
   std::vector<JerkRate> rates(double confidence) const;
 
  private:
@@ -158,8 +160,9 @@ class JerkRates {
 
     void close_clusters();
   };
-  /// Index of the range that contains this sample. @param sample samples since arrival @param sample_time
-  /// sampling interval, s
+  /// Index of the range that contains this sample.
+  /// @param sample samples since arrival
+  /// @param sample_time sampling interval, s
   std::int64_t range_of(std::int64_t sample, double sample_time);
   Range& range_at(std::int64_t j, const ObservedMove& move);
   void add_exposure(const ObservedMove& move, std::int64_t first, std::int64_t end);
@@ -196,7 +199,8 @@ struct JerkReport {
 
 /// The data of the command `jerks`: the jerks of the design points `points` (all points if empty) of a
 /// complete results file, in each setting. The first `creep_trials` trials of each point are simulated again
-/// and compared with the closed form of creep. @throws Failure in the cases of jerk_statistics()
+/// and compared with the closed form of creep.
+/// @throws Failure in the cases of jerk_statistics()
 JerkReport jerk_report(const reading::AllTrialsFile& file, std::vector<std::int64_t> points,
                        double confidence, std::int64_t creep_trials);
 

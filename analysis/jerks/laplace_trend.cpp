@@ -81,7 +81,8 @@ OrderCount random_orders(std::span<const std::int64_t> intervals, std::int64_t o
 }
 
 /// One-sided p-value of the trend of all moves together: the proportion of random orders of the intervals of
-/// all moves whose summed statistic is at most the observed one. @param moves [move] intervals, samples
+/// all moves whose summed statistic is at most the observed one.
+/// @param moves [move] intervals, samples
 double permuted_p(const std::vector<std::vector<std::int64_t>>& moves) {
   std::int64_t observed = 0;
   for (const std::vector<std::int64_t>& intervals : moves) observed += laplace_sum(intervals);

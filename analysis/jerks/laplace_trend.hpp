@@ -38,8 +38,8 @@ struct TrendTerm {
   double variance{0.0};
 };
 
-/// Computes Laplace's statistic of one move. @param intervals intervals between its jerks in the order of
-/// time, whole samples
+/// Computes Laplace's statistic of one move.
+/// @param intervals intervals between its jerks in the order of time, whole samples
 TrendTerm trend_term(std::span<const std::int64_t> intervals);
 
 /// Standardised statistic excess/√variance: mean 0 and standard deviation 1 without a trend, negative if the
@@ -54,8 +54,9 @@ struct TrendProbability {
 };
 
 /// Computes the one-sided p-values of a trend within one move. For up to 7 intervals all orders are counted,
-/// otherwise 999 random orders and the observed one. @param intervals intervals between its jerks in the
-/// order of time, samples @param move number of the move, on which the random orders depend
+/// otherwise 999 random orders and the observed one.
+/// @param intervals intervals between its jerks in the order of time, samples
+/// @param move number of the move, on which the random orders depend
 TrendProbability trend_probability(std::span<const std::int64_t> intervals, std::uint32_t move);
 
 /// Result of the test whether jerks slow down, for single moves and for all moves together.
@@ -96,9 +97,11 @@ inline constexpr std::int64_t max_permuted_intervals = 20000;
 /// Collects the intervals of the moves of a design point, and tests them for a trend.
 class TrendSum {
  public:
-  /// Creates an empty collection. @param confidence confidence of the one-sided tests of single moves
+  /// Creates an empty collection.
+  /// @param confidence confidence of the one-sided tests of single moves
   explicit TrendSum(double confidence);
-  /// Adds one move. @param intervals intervals between its jerks in the order of time, whole samples
+  /// Adds one move.
+  /// @param intervals intervals between its jerks in the order of time, whole samples
   void add(std::span<const std::int64_t> intervals);
   /// Tests the moves added so far. The result is deterministic and does not depend on the number of threads.
   TrendSummary summary();

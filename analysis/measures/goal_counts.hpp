@@ -57,7 +57,8 @@ std::vector<CountedGoal> counted_goals(const study::Study& study);
 /// counts).
 std::vector<CountedGoal> asked_of_moves(const study::Study& study);
 
-/// Number of moves of a trial that the goal judges. @param moves number of moves of a trial
+/// Number of moves of a trial that the goal judges.
+/// @param moves number of moves of a trial
 inline std::int64_t asked_moves(const CountedGoal& goal, std::int64_t moves) {
   return goal.on.empty() ? moves : std::ssize(goal.on);
 }
@@ -95,7 +96,8 @@ inline double settling_time(const CountedGoal& goal, const trial::MoveOutcome& m
   return goal.slot ? move.bands[*goal.slot].settling_time : move.arrival_time;
 }
 
-/// Whether the move meets the criterion of the goal. @param move a move that the goal judges
+/// Whether the move meets the criterion of the goal.
+/// @param move a move that the goal judges
 bool meets(const CountedGoal& goal, const trial::MoveOutcome& move);
 
 /// Whether all moves of a trial that the goal judges meet it; true if it judges none.
@@ -104,8 +106,9 @@ inline bool all_meet(const CountedGoal& goal, std::span<const trial::MoveOutcome
       moves, [&](const trial::MoveOutcome& move) { return !asks(goal, move) || meets(goal, move); });
 }
 
-/// Adds to `counts` the moves of a trial that the goal judges. @param trial index of the trial at the design
-/// point @returns number of moves that meet the goal
+/// Adds to `counts` the moves of a trial that the goal judges.
+/// @param trial index of the trial at the design point
+/// @returns number of moves that meet the goal
 std::int64_t count_moves(CellCounts& counts, const CountedGoal& goal, std::int64_t trial,
                          std::span<const trial::MoveOutcome> moves);
 
@@ -126,8 +129,9 @@ class GoalSettling {
  public:
   GoalSettling(const CountedGoal& goal, const Shape& shape);
 
-  /// Adds the settling times of a trial. @param trial index of the trial at the design point @param goal the
-  /// criterion of the goal
+  /// Adds the settling times of a trial.
+  /// @param trial index of the trial at the design point
+  /// @param goal the criterion of the goal
   void add(std::int64_t trial, const CountedGoal& goal, std::span<const trial::MoveOutcome> moves);
   /// Adds the settling times of another accumulator for the same goal.
   GoalSettling& operator+=(const GoalSettling& next);
@@ -171,8 +175,9 @@ struct MoveEvent {
 MoveEvent missed_question(const study::Study& study);
 
 /// Parses the text of an event about a measure, such as "arrival_time > 0.5" or "band_settling_time[1] >=
-/// 0.05". @throws Failure (bad_input) unless it is the name of a measure of the study, one of > >= < <= (or
-/// ≥, ≤), and a number
+/// 0.05".
+/// @throws Failure (bad_input) unless it is the name of a measure of the study, one of > >= < <= (or ≥, ≤),
+/// and a number
 MoveEvent parse_event(const study::Study& study, std::string_view text);
 
 /// Whether the move can show the event at all: the event is about a measure, or a goal judges the move.
@@ -185,8 +190,12 @@ bool happens(const MoveEvent& event, const trial::MoveOutcome& move);
 /// Continuous scores of a move, which show how near it is to a failure. A larger score means nearer to some
 /// kind of failure.
 enum class MoveScore {
-  /// Settling time in the goal's band, or arrival time, s; for an event about a measure, the measure with the
-  /// sign that makes larger values nearer to the event.
+  /// Nearness to the event itself. For an event about a measure it is the measure, with the sign that makes
+  /// larger values nearer to the event. Without a goal it is the arrival time, s. With one goal about a band
+  /// or
+  /// tolerance it is the settling time in it, s; with several goals, or goals that start after the profile,
+  /// it
+  /// is the largest of settling time / allowed time over the goals.
   event,
   /// Largest |torque|, N m: shows how near the move is to the converter's limit and to breakaway.
   peak_torque,

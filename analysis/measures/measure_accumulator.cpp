@@ -120,7 +120,8 @@ void MeasureAccumulator::add_values(const MovesOfTrials& some) {
 }
 
 /// Adds the values of several trials, values_ as [trial][value], to the totals of their clusters (machines).
-/// @param trial index of the first trial @param of_trial number of values of a trial
+/// @param trial index of the first trial
+/// @param of_trial number of values of a trial
 void MeasureAccumulator::add_totals(std::int64_t trial, std::size_t of_trial) {
   if (!has_mean_bounds_) return;
   std::vector<double> known;

@@ -56,7 +56,8 @@ struct StatisticsOfMeasures {
   /// [row of the table] Statistics of the measure.
   std::vector<MeasureStatistics> measures = std::vector<MeasureStatistics>(table->size());
 
-  /// Statistics of a measure. @param measure a row of `table`
+  /// Statistics of a measure.
+  /// @param measure a row of `table`
   const MeasureStatistics& of(const layout::Measure& measure) const {
     return measures.at(static_cast<std::size_t>(&measure - table->data()));
   }
@@ -79,13 +80,14 @@ struct StatisticsOfMeasures {
   }
 };
 
-/// Statistics of the measure with this name, such as "band_settling_time[1]". @throws std::invalid_argument
-/// if the table has no such measure
+/// Statistics of the measure with this name, such as "band_settling_time[1]".
+/// @throws std::invalid_argument if the table has no such measure
 const MeasureStatistics& named(const StatisticsOfMeasures& statistics, std::string_view name);
 
-/// Statistics of a measure of an error band. @param name name without the band, such as "band_settling_time"
-/// @param band size of the band, counts @throws std::invalid_argument if the table has no such measure of the
-/// band
+/// Statistics of a measure of an error band.
+/// @param name name without the band, such as "band_settling_time"
+/// @param band size of the band, counts
+/// @throws std::invalid_argument if the table has no such measure of the band
 const MeasureStatistics& of_band(const StatisticsOfMeasures& statistics, std::string_view name,
                                  std::int64_t band);
 

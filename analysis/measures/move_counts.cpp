@@ -22,14 +22,15 @@ std::int64_t CellCounts::cells_of_setting() const {
   return shape_.machines > 0 ? shape_.machines : static_cast<std::int64_t>(worlds());
 }
 
-/// Index of a cell: a machine in a setting or, without machines, a world in a setting. @param within index of
-/// the machine; without machines, of the world
+/// Index of a cell: a machine in a setting or, without machines, a world in a setting.
+/// @param within index of the machine; without machines, of the world
 std::int64_t CellCounts::cell_of(std::size_t setting, std::size_t within) const {
   return static_cast<std::int64_t>(setting) * cells_of_setting() + static_cast<std::int64_t>(within);
 }
 
 void CellCounts::add(std::int64_t trial, std::int64_t moves, std::int64_t met) {
   const study::TrialIndices indices{.machines = std::max<std::int64_t>(shape_.machines, 1),
+                                    // Only the number of settings matters for the two indices below.
                                     .settings = {.conditions = static_cast<std::int64_t>(settings())}};
   const auto setting = static_cast<std::size_t>(indices.setting_of(trial));
   const auto within = static_cast<std::size_t>(indices.draw_of(trial) % cells_of_setting());
@@ -78,7 +79,7 @@ MoveCounts CellCounts::sum(const Cells& cells) const {
   return sum;
 }
 
-std::vector<MoveCounts> CellCounts::by_world(Setting setting) const {
+std::vector<MoveCounts> CellCounts::by_world(SettingOrAll setting) const {
   std::vector<MoveCounts> each;
   for (std::size_t world = 0; shape_.worlds > 0 && world < worlds(); ++world)
     each.push_back(sum({setting, world}));
@@ -118,7 +119,7 @@ bool CellCounts::is_valid(std::int64_t trials, std::int64_t moves_of_trial) cons
 
 /// [world] Sums over the moves in each world, in the form in which files store them. Empty if the study has
 /// machines, and if nothing was counted.
-std::vector<statistics::ClusterSums> CellCounts::sums_of_worlds(Setting setting) const {
+std::vector<statistics::ClusterSums> CellCounts::sums_of_worlds(SettingOrAll setting) const {
   std::vector<statistics::ClusterSums> sums;
   for (const MoveCounts& world : by_world(setting)) sums.push_back(world.of_trials);
   const auto is_empty = [](const statistics::ClusterSums& one) { return one.clusters == 0; };
@@ -152,7 +153,7 @@ void CellCounts::take(std::size_t setting, const Part& part) {
   if (shape_.worlds == 0 && shape_.machines == 0) add_trials(0, setting, part.counts.of_trials);
 }
 
-bool CellCounts::has_sum(const Part& part, Setting setting) const {
+bool CellCounts::has_sum(const Part& part, SettingOrAll setting) const {
   const MoveCounts found = sum({setting, std::nullopt});
   const auto is_same = [](const statistics::ClusterSums& a, const statistics::ClusterSums& b) {
     return a.clusters == b.clusters && a.hits == b.hits && a.events == b.events;  // squares may be rounded

@@ -41,7 +41,7 @@ struct Shape {
 };
 
 inline Shape shape_of(const study::Study& study) {
-  return {study.machines, study.worlds, study.settings.empty() ? 0 : study.settings.total()};
+  return {study.machines, study.worlds, study.settings.listed()};
 }
 
 /// Selection among the counts of a design point: one setting or all (null), one world or all (null).
@@ -56,13 +56,17 @@ class CellCounts {
  public:
   explicit CellCounts(const Shape& shape = {}) : shape_(shape) {}
 
-  /// Adds the moves of a trial. @param trial index of the trial at the design point @param moves number of
-  /// judged moves @param met number of these that meet the goal
+  /// Adds the moves of a trial.
+  /// @param trial index of the trial at the design point
+  /// @param moves number of judged moves
+  /// @param met number of these that meet the goal
   void add(std::int64_t trial, std::int64_t moves, std::int64_t met);
-  /// Adds the moves of a machine in one setting. @param setting index of the setting; 0 without settings
+  /// Adds the moves of a machine in one setting.
+  /// @param setting index of the setting; 0 without settings
   void add_machine(std::size_t machine, std::size_t setting, const statistics::MachineMoves& moves);
-  /// Adds the moves of trials of one world in one setting, in a study without machines. @param world 0
-  /// without worlds @param setting 0 without settings
+  /// Adds the moves of trials of one world in one setting, in a study without machines.
+  /// @param world 0 without worlds
+  /// @param setting 0 without settings
   void add_trials(std::size_t world, std::size_t setting, const statistics::ClusterSums& moves);
   /// Adds the counts of another object with the same shape.
   CellCounts& operator+=(const CellCounts& other);
@@ -82,7 +86,8 @@ class CellCounts {
   /// [world] Counts of the moves in one setting, for each world; without worlds a single element with all of
   /// them. A claim in this setting must hold in each element.
   std::vector<MoveCounts> worlds_in(std::size_t setting) const;
-  /// A copy that contains only the counts in one setting. @param setting index of the setting
+  /// A copy that contains only the counts in one setting.
+  /// @param setting index of the setting
   CellCounts in_setting(std::size_t setting) const;
 
   /// Whether the counts that were read from a file are possible for this number of trials.
@@ -107,7 +112,7 @@ class CellCounts {
   }
 
  private:
-  using Setting = std::optional<std::size_t>;  ///< Index of a setting; empty: all settings.
+  using SettingOrAll = std::optional<std::size_t>;  ///< Index of a setting; empty: all settings.
 
   /// The sums of one setting, or of all settings, as a file stores them.
   struct Part {
@@ -119,14 +124,14 @@ class CellCounts {
   std::size_t worlds() const { return static_cast<std::size_t>(std::max<std::int64_t>(shape_.worlds, 1)); }
   std::int64_t cells_of_setting() const;
   std::int64_t cell_of(std::size_t setting, std::size_t within) const;
-  std::vector<MoveCounts> by_world(Setting setting) const;
-  std::vector<statistics::ClusterSums> sums_of_worlds(Setting setting) const;
+  std::vector<MoveCounts> by_world(SettingOrAll setting) const;
+  std::vector<statistics::ClusterSums> sums_of_worlds(SettingOrAll setting) const;
   bool can_be(const Part& part) const;
   void take(std::size_t setting, const Part& part);
-  bool has_sum(const Part& part, Setting setting) const;
+  bool has_sum(const Part& part, SettingOrAll setting) const;
 
   template <class Archive>
-  void write(Archive& archive, Setting setting) const {
+  void write(Archive& archive, SettingOrAll setting) const {
     const MoveCounts counts = sum({setting, std::nullopt});
     archive(counts.moves, counts.met, counts.of_trials, counts.machines);
     if (shape_.worlds > 0) archive(sums_of_worlds(setting));
@@ -135,7 +140,7 @@ class CellCounts {
   /// Reads the sums of one setting, or of all settings, and returns them. They are also added to the cells if
   /// they belong to one setting, or if the study has no settings.
   template <class Archive>
-  Part read(Archive& archive, Setting setting) {
+  Part read(Archive& archive, SettingOrAll setting) {
     Part part;
     MoveCounts& counts = part.counts;
     archive(counts.moves, counts.met, counts.of_trials, counts.machines);

@@ -41,8 +41,9 @@ void require_move_count(std::size_t moves, std::int64_t trials, std::size_t expe
                             trials == 0 ? "at least one" : fmt::format("{} as before", expected)));
 }
 
-/// Requires that the move is of the kind of the study. @throws Failure (bad_data) if the move has a target in
-/// an open-loop study, or a torque level in another study
+/// Requires that the move is of the kind of the study.
+/// @throws Failure (bad_data) if the move has a target in an open-loop study, or a torque level in another
+/// study
 void require_kind(const trial::MoveOutcome& move, bool open_loop) {
   if (move.outcome == trial::Outcome::nonfinite || (move.outcome == trial::Outcome::open_loop) == open_loop)
     return;

@@ -70,9 +70,10 @@ struct StatisticsOptions {
 /// grows with the number of distinct values, not with the number of trials.
 class MeasureAccumulator {
  public:
-  /// Creates an empty accumulator. @param measure must outlive this object @param reported the statistics of
-  /// the measure that are reported at a design point, or at a torque level @param kind properties of the
-  /// moves
+  /// Creates an empty accumulator.
+  /// @param measure must outlive this object
+  /// @param reported the statistics of the measure that are reported at a design point, or at a torque level
+  /// @param kind properties of the moves
   MeasureAccumulator(const layout::Measure& measure, const layout::ReportedStatistics& reported,
                      const MoveKind& kind);
 
@@ -87,8 +88,9 @@ class MeasureAccumulator {
             self.hits_);
     if (self.counts_moves_) archive(self.of_moves_);
   }
-  /// Whether the sums that were read from a file are possible for this measure. @param trials number of
-  /// trials @param moves number of moves of each trial
+  /// Whether the sums that were read from a file are possible for this measure.
+  /// @param trials number of trials
+  /// @param moves number of moves of each trial
   bool is_valid(std::int64_t trials, std::int64_t moves) const;
 
  private:
@@ -132,8 +134,10 @@ class MeasureAccumulator {
 /// samples of a move and the maximum error in counts.
 class PointAccumulator {
  public:
-  /// Creates an accumulator without trials. @param kind properties of the moves @param table the measures;
-  /// must outlive this object @param first_trial index of the first trial that will be added
+  /// Creates an accumulator without trials.
+  /// @param kind properties of the moves
+  /// @param table the measures; must outlive this object
+  /// @param first_trial index of the first trial that will be added
   explicit PointAccumulator(const MoveKind& kind = {},
                             const layout::MeasureTable& table = layout::measure_table(),
                             std::int64_t first_trial = 0);
@@ -149,8 +153,8 @@ class PointAccumulator {
   /// @param moves [trial][move], flattened
   /// @param moves_of_trial number of moves of each trial
   void add_measures(std::span<const trial::MoveOutcome* const> moves, std::size_t moves_of_trial);
-  /// Second part of add(), for one trial: adds everything except the measures. @param jerks jerks of the
-  /// trial in order of move and onset
+  /// Second part of add(), for one trial: adds everything except the measures.
+  /// @param jerks jerks of the trial in order of move and onset
   void add_counts(std::span<const trial::MoveOutcome> moves, std::span<const trial::Jerk> jerks);
 
   /// Adds the trials of another accumulator for the same design point; they must follow the trials of this

@@ -28,9 +28,10 @@ const layout::PointColumn& find_column(std::span<const layout::PointColumn> colu
   return *found;
 }
 
-/// Converts a proportion of trials back to their number. @param trials number of all trials @param name name
-/// of the column, for the message @throws Failure (bad_data) if the value is not the proportion of a whole
-/// number of trials
+/// Converts a proportion of trials back to their number.
+/// @param trials number of all trials
+/// @param name name of the column, for the message
+/// @throws Failure (bad_data) if the value is not the proportion of a whole number of trials
 std::int64_t trials_of_proportion(double proportion, std::int64_t trials, std::string_view name,
                                   const std::filesystem::path& file) {
   if (!(proportion >= 0.0 && proportion <= 1.0))

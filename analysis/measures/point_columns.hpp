@@ -82,8 +82,8 @@ std::vector<LevelField> level_fields(const layout::MeasureTable& measures = layo
 std::vector<const layout::Measure*> counted_qualities(const study::StudyFeatures& features,
                                                       const layout::MeasureTable& measures);
 
-/// Adds one reported number to the description of an answer as a value. @param subject_of function that
-/// returns a reference to the subject (such as a PointSummary) of a row
+/// Adds one reported number to the description of an answer as a value.
+/// @param subject_of function that returns a reference to the subject (such as a PointSummary) of a row
 template <class Row, class Subject, class Get>
 void add_field(document::Description<Row>& description, const text::ReportField<Subject>& field,
                const std::string& key, parameters::AxisKind axis, document::Visibility shown,
@@ -106,8 +106,8 @@ void add_field(document::Description<Row>& description, const text::ReportField<
 }
 
 /// Adds reported numbers to the description of an answer. The numbers of a group form an object, so that
-/// their names in CSV equal flat_name(). @param subject_of function that returns a reference to the subject
-/// of a row
+/// their names in CSV equal flat_name().
+/// @param subject_of function that returns a reference to the subject of a row
 template <class Row, class Subject, class Get>
 void add_fields(document::Description<Row>& description,
                 const std::vector<text::ReportField<Subject>>& fields, parameters::AxisKind axis,

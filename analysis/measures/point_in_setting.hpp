@@ -38,7 +38,8 @@ inline document::Description<PointInSetting> name_of_point() {
 }
 
 /// Calls `make(file, place)` for each design point in each setting, and returns the results ordered by point,
-/// then by setting. `place` is a PointInSetting. @param points indices of the points; empty: all points
+/// then by setting. `place` is a PointInSetting.
+/// @param points indices of the points; empty: all points
 /// @tparam Part type of the results; has the members of PointInSetting
 /// @throws Failure (bad_input) for a point that does not exist
 template <class Part, class Make>

@@ -42,8 +42,8 @@ inline constexpr std::array outcome_counters{&OutcomeCounts::zero_count,  &Outco
                                              &OutcomeCounts::oscillating, &OutcomeCounts::nonfinite,
                                              &OutcomeCounts::open_loop,   &OutcomeCounts::off_target};
 
-/// The member of OutcomeCounts that counts an outcome. @throws Failure (bad_data) for a value that is not an
-/// outcome: the file is damaged
+/// The member of OutcomeCounts that counts an outcome.
+/// @throws Failure (bad_data) for a value that is not an outcome: the file is damaged
 std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome);
 
 /// Statistics of the time between the onsets of successive jerks of a move, s.

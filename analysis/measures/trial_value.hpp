@@ -17,8 +17,8 @@
 
 namespace zerocount::measures {
 
-/// The value of a move for the statistics of a measure; NaN if the move has none. @param value value of the
-/// measure's member of MoveOutcome
+/// The value of a move for the statistics of a measure; NaN if the move has none.
+/// @param value value of the measure's member of MoveOutcome
 inline double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move, double value) {
   const bool is_lost = measure.values.needs_motion && move.outcome == trial::Outcome::nonfinite;
   if (is_lost || !trial::was_run(move)) return statistics::unknown;
@@ -27,8 +27,8 @@ inline double counted_value(const layout::Measure& measure, const trial::MoveOut
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move);
 
 /// The value of a measure for comparison with limits and for rankings: infinite, with the sign of the worse
-/// direction, if the event never came; null if there is nothing to measure (layout::Missing). @param value
-/// value of the measure's member of MoveOutcome
+/// direction, if the event never came; null if there is nothing to measure (layout::Missing).
+/// @param value value of the measure's member of MoveOutcome
 std::optional<double> ranked_value(const layout::CountedValues& values, double value);
 /// The value of a measure of a move for comparison with limits and for rankings. If a value is missing
 /// because the move was stopped or its motion was lost, it is infinite for any measure. A move that was not
@@ -44,8 +44,8 @@ bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutc
 /// Number of moves of a trial that must have the quality so that the trial counts as having it.
 std::int64_t wanted_moves(const layout::Measure& quality, std::int64_t moves_of_trial);
 
-/// The value of a trial for a measure that is summed over its moves. @param value function that returns the
-/// value of a move
+/// The value of a trial for a measure that is summed over its moves.
+/// @param value function that returns the value of a move
 template <class Moves, class Value = std::identity>
 double sum_of_moves(const Moves& moves, const Value& value = {}) {
   double sum = 0.0;
@@ -54,8 +54,9 @@ double sum_of_moves(const Moves& moves, const Value& value = {}) {
 }
 
 /// The value of a measure for a trial, combined from the values of its moves by Measure::reduction; 1 or 0
-/// for a quality. The settling time of a trial is that of its slowest move. @param late function that returns
-/// the value for a time that was not reached; without it the trial's value is NaN
+/// for a quality. The settling time of a trial is that of its slowest move.
+/// @param late function that returns the value for a time that was not reached; without it the trial's value
+/// is NaN
 double value_of_trial(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves,
                       const std::function<double()>& late = {});
 

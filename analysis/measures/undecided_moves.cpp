@@ -120,7 +120,8 @@ double decay_time_constant(std::int64_t midway_error, std::int64_t final_error, 
 
 /// Logarithm ln(step / initial error) of a move, at least 0. With a longer hold the preceding move arrives
 /// too, so that this move starts with its whole step as error. 0 for the first move, and under a profiled
-/// reference, where the error does not start with the step. @param number number of the move in the trial
+/// reference, where the error does not start with the step.
+/// @param number number of the move in the trial
 /// @param error_before last error of the preceding move, counts
 double log_of_longer_way(const trial::TrialParameters& parameters, std::size_t number,
                          std::int64_t error_before) {
@@ -132,8 +133,9 @@ double log_of_longer_way(const trial::TrialParameters& parameters, std::size_t n
   return std::max(0.0, std::log(std::abs(static_cast<double>(step) / static_cast<double>(start))));
 }
 
-/// Hold (time until the next move) that the move is expected to need to arrive, s. @param number number of
-/// the move in the trial @param error_before last error of the preceding move, counts
+/// Hold (time until the next move) that the move is expected to need to arrive, s.
+/// @param number number of the move in the trial
+/// @param error_before last error of the preceding move, counts
 double needed_hold(const trial::MoveOutcome& move, std::size_t number, std::int64_t error_before,
                    const trial::TrialParameters& p) {
   const std::int64_t samples = trial::samples_of_move(p, number);

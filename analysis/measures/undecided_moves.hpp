@@ -85,8 +85,10 @@ inline constexpr std::string_view undecided_meaning =
 ///
 ///   t = t_{N−1} + τ·ln(2·|e_{N−1}|),  τ = (t_{N−1} − t_h)/ln(|e_h|/|e_{N−1}|).
 ///
-/// @param midway_error e_h. @param final_error e_{N−1}; 1 ≤ |e_{N−1}| < |e_h|.
-/// @param samples N. @param sample_time T, s.
+/// @param midway_error e_h.
+/// @param final_error e_{N−1}; 1 ≤ |e_{N−1}| < |e_h|.
+/// @param samples N.
+/// @param sample_time T, s.
 double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
                     double sample_time);
 
@@ -97,7 +99,8 @@ struct UndecidedSums {
   /// digits.
   statistics::Histogram<double> needed_holds;
 
-  /// Adds the moves of a trial. @param row row of the trial in the study, counted over all design points
+  /// Adds the moves of a trial.
+  /// @param row row of the trial in the study, counted over all design points
   void add(const study::Study& study, std::int64_t row, std::span<const trial::MoveOutcome> moves);
   UndecidedSums& operator+=(const UndecidedSums& other);
   UndecidedMoves moves() const;

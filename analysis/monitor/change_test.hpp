@@ -40,8 +40,9 @@ class ChangeMartingale {
   /// @param baseline number n of values in the baseline, at least 1
   explicit ChangeMartingale(std::int64_t baseline);
 
-  /// Adds the next value. @param p p-value of this value: its rank, as a proportion, among all values before
-  /// it and the baseline, in (0, 1); small for a large value
+  /// Adds the next value.
+  /// @param p p-value of this value: its rank, as a proportion, among all values before it and the baseline,
+  /// in (0, 1); small for a large value
   void update(double p);
 
   std::int64_t values() const { return values_; }  ///< Number t of values so far, without the baseline.
@@ -103,13 +104,13 @@ class RankedBag {
 /// w(s, i) the random bits of the key with the stream s and the index i.
 class ChangeTest {
  public:
-  /// @param baseline [class of similar moves] values of the measure before the log begins @param ties random
-  /// key for the numbers that break ties
+  /// @param baseline [class of similar moves] values of the measure before the log begins
+  /// @param ties random key for the numbers that break ties
   ChangeTest(std::vector<std::vector<double>> baseline, const random::RandomKey& ties);
 
-  /// @param value next value of the measure, not NaN @param of_class index of the class of similar moves to
-  /// which it belongs @returns its p-value: the smoothed proportion of values of its class, itself included,
-  /// that are larger
+  /// @param value next value of the measure, not NaN
+  /// @param of_class index of the class of similar moves to which it belongs
+  /// @returns its p-value: the smoothed proportion of values of its class, itself included, that are larger
   double update(double value, std::size_t of_class = 0);
 
   const ChangeMartingale& martingale() const { return martingale_; }

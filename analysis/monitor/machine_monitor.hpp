@@ -247,7 +247,9 @@ class MachineMonitor {
   /// Fills `unwatched_`: the measures that are not watched, each with the reason.
   /// @param common columns of the measures that are watched
   void note_unwatched(const Baseline& baseline, const MoveLog& log, const std::vector<Pair>& common);
-  /// Begins to watch a measure. @param before column of the baseline @param column column of the log
+  /// Begins to watch a measure.
+  /// @param before column of the baseline
+  /// @param column column of the log
   /// @returns the values of the baseline (one for each move, block or group), in their order
   std::vector<double> add(const MoveLog::Column& before, const MoveLog::Column& column);
   /// Tests whether the values of a measured baseline are exchangeable, for each measure.

@@ -36,7 +36,8 @@ struct ModelMoves {
   std::optional<std::int64_t> machine{};
 };
 
-/// The moves of a measured log as a baseline. @throws Failure (bad_data) if the log has no move
+/// The moves of a measured log as a baseline.
+/// @throws Failure (bad_data) if the log has no move
 Baseline baseline_of(const MoveLog& log);
 
 /// The moves of a results file as a baseline, trial after trial.
@@ -123,7 +124,8 @@ std::vector<std::size_t> set_of(std::span<const std::size_t> likes);
 
 /// The value that stands for consecutive moves: for each class of similar moves among them the
 /// typical_value() of their oriented values (Likes::oriented()), then the mean over the classes.
-/// @param classes [move] index of the class @param values [move] value of the measure
+/// @param classes [move] index of the class
+/// @param values [move] value of the measure
 double value_of(const MonitoredMeasure& measure, const Likes& likes, std::span<const std::size_t> classes,
                 std::span<const double> values);
 

@@ -57,7 +57,8 @@ const layout::MeasureTable& table_with_both() {
 
 /// Name of a measure for the error band or the tolerance given by `index`, such as "band_settling_time[1]";
 /// nothing if `index` cannot be one.
-/// @param row measure in table_with_both() @param stem its name without brackets
+/// @param row measure in table_with_both()
+/// @param stem its name without brackets
 std::optional<std::string> name_with_index(const layout::Measure& row, std::string_view stem, double index) {
   constexpr double largest = 1e15;  // below which all whole numbers are exact
   if (!(std::abs(index) < largest)) return std::nullopt;

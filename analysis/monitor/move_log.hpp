@@ -170,7 +170,8 @@ class MoveLog : public Moves {
   /// the log has several columns, and tabs separate the cells.
   /// @throws Failure as read()
   void read_last(std::string_view line);
-  /// Checks that a header has been read. @throws Failure (bad_input) if there was none
+  /// Checks that a header has been read.
+  /// @throws Failure (bad_input) if there was none
   void require_header() const;
 
   bool has_header() const { return !heads_.empty(); }

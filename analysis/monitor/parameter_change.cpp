@@ -91,7 +91,8 @@ Matrix covariance_about(const Matrix& values, const Vector& mean) {
   return centred * centred.transpose();
 }
 
-/// Mean and covariances of the features of several machines. @param machines [machine] matrix [feature, move]
+/// Mean and covariances of the features of several machines.
+/// @param machines [machine] matrix [feature, move]
 Spread spread_of(const std::vector<Matrix>& machines) {
   const Eigen::Index measures = machines.front().rows();
   Matrix means(measures, static_cast<Eigen::Index>(machines.size()));
@@ -177,7 +178,8 @@ Matrix inflated(const Matrix& covariance, const Vector& inflation) {
 
 /// Number of moves before the change, by the split at which the mean scores differ most; 0 if the difference
 /// is not significant.
-/// @param scores [feature, move] @param within covariance of the features of one machine's moves
+/// @param scores [feature, move]
+/// @param within covariance of the features of one machine's moves
 Eigen::Index moves_before_change(const Matrix& scores, const Matrix& within) {
   const Eigen::Index moves = scores.cols();
   const auto first = static_cast<Eigen::Index>(min_moves_before);
@@ -260,7 +262,8 @@ Expected expected_at(double place, const std::vector<Matrix>& changed, const std
 
 /// Largest squared Mahalanobis distance Q that is accepted: its 99 % quantile if the parameter is the right
 /// one. The quantile is that of Hotelling's T², to the first order in 1/ν.
-/// @param features number of features @param freedom degrees of freedom ν of the covariance
+/// @param features number of features
+/// @param freedom degrees of freedom ν of the covariance
 double max_misfit(Eigen::Index features, double freedom) {
   const auto count = static_cast<double>(features);
   const double x = statistics::chi_squared_quantile(count, 1.0 - misfit_of_the_right_one);
@@ -352,7 +355,8 @@ std::size_t differing_machines(const std::vector<MoveValues>& unchanged) {
 
 /// Chooses the features by which moves are compared: features that vary and that the chosen ones do not
 /// already determine. Measures with smaller indices, which are the more informative ones, are preferred.
-/// @param unchanged [machine] moves of the unchanged machines @param measures number of measures per move
+/// @param unchanged [machine] moves of the unchanged machines
+/// @param measures number of measures per move
 std::vector<Feature> telling_features(const std::vector<MoveValues>& unchanged, std::size_t measures) {
   constexpr std::size_t most = 16;
   constexpr std::size_t most_measures = 8;

@@ -126,8 +126,8 @@ inline constexpr std::size_t min_moves_after = 20;
 ///
 /// A feature that the others tell (with a residual variance below 0.19) is left out, and so is a measure with
 /// one value in 80 % of the moves. There are at most 16 features, and one for each four machines that differ.
-/// @param observed the moves of the machine @param measures number of measures of a move, the most telling
-/// first
+/// @param observed the moves of the machine
+/// @param measures number of measures of a move, the most telling first
 ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const MoveValues& observed,
                                  std::size_t measures);
 

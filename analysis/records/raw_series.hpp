@@ -57,13 +57,13 @@ struct ExcludedTime {
   double to{0.0};
 };
 
-/// Excludes the readings of the samples in the time interval, its ends included. @return whether the interval
-/// contains any sample.
+/// Excludes the readings of the samples in the time interval, its ends included.
+/// @return whether the interval contains any sample.
 bool exclude(RawSeries& series, const ExcludedTime& interval);
 
 /// The user's choices for the interpretation of a file.
 struct SeriesChoice {
-  /// Which column holds which quantity, at most one statement for each quantity.
+  /// Names of the columns that hold the quantities, at most one column for each quantity.
   std::vector<ColumnMapping> columns{};
   /// Character that separates the columns of a text file; nothing: found from the file.
   std::optional<tables::Separator> separator{};

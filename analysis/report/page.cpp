@@ -118,7 +118,8 @@ std::string figure_html(const Figure& figure) {
 /// and a browser draws about twenty a second.
 class FiguresInPage {
  public:
-  /// Takes the figure into the page if there is room for it. @param element HTML element in which it is drawn
+  /// Takes the figure into the page if there is room for it.
+  /// @param element HTML element in which it is drawn
   /// @returns whether there was room
   bool take(const Figure& figure, const std::string& element) {
     constexpr std::size_t max_figures = 48;
@@ -139,8 +140,8 @@ class FiguresInPage {
   std::size_t bytes_{0};
 };
 
-/// Sentence part that says how to see the figures that a page leaves out. @param kind command that wrote the
-/// page
+/// Sentence part that says how to see the figures that a page leaves out.
+/// @param kind command that wrote the page
 std::string where_others_are(const std::string& kind) {
   if (kind == "report")
     return "'zerocount plot FILE' lists all names, and with --figure NAME it draws one of them";

@@ -68,8 +68,8 @@ ReportPage answer_page(const document::Answer& answer);
 /// The names of all figures of a page.
 std::vector<std::string> figure_names(const ReportPage& page);
 
-/// The figure with this name. @throws Failure (bad_input) if the page has no such figure; the message lists
-/// the existing ones.
+/// The figure with this name.
+/// @throws Failure (bad_input) if the page has no such figure; the message lists the existing ones.
 const Figure& find_figure(const ReportPage& page, const std::string& name);
 
 }  // namespace zerocount::report

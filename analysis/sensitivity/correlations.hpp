@@ -56,7 +56,8 @@ bool is_constant(std::span<const double> values);
 ///
 /// NaN for a column whose ranks are a linear combination of those before it, and for all where y is constant
 /// or there are fewer than k + 10 rows.
-/// @param x n × k, finite, no column constant. @param y n values.
+/// @param x n × k, finite, no column constant.
+/// @param y n values.
 std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, std::span<const double> y,
                                                      double confidence);
 
@@ -81,7 +82,8 @@ struct LogisticFit {
 /// The bounds are Wald's, b ± q·s with s² from the inverse of ZᵀWZ. If yes and no are separated, completely
 /// or except for trials on the border, the likelihood has no finite maximum (Albert & Anderson 1984), and the
 /// steps do not become smaller.
-/// @param x n × k, finite, no column constant. @param yes n values, 0 or 1.
+/// @param x n × k, finite, no column constant.
+/// @param yes n values, 0 or 1.
 LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, double confidence);
 
 }  // namespace zerocount::sensitivity

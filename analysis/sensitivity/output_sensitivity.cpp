@@ -118,8 +118,8 @@ FactorSensitivity& row_of(OutputSensitivity& result, const std::string& name) {
   return result.factors.back();
 }
 
-// Names the factors of which the bounds leave more than half of what is possible open. @returns whether there
-// are any
+// Names the factors of which the bounds leave more than half of what is possible open.
+// @returns whether there are any
 bool note_open(OutputSensitivity& result, BoundedNumber FactorSensitivity::*index, std::string_view name) {
   std::vector<std::string> open;
   for (const FactorSensitivity& factor : result.factors)

@@ -219,8 +219,8 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
   return result;
 }
 
-/// What is computed for every design point of a study: the outputs, their random stream and the user's
-/// question.
+/// The user's question, with the outputs and the random stream that are the same for every design point of a
+/// study.
 struct PointQuestion {
   const SensitivityQuestion& question;
   std::vector<SensitivityOutput> outputs;

@@ -202,7 +202,8 @@ struct PointInputs {
 /// everything else from the trials of A and B, which are independent. In a study with machines everything
 /// comes from the first trial of every machine, because the other trials are not independent of it. Trials
 /// without a value are left out together with their rows.
-/// @param trials values of the output @param bootstrap random stream that selects the resampled rows
+/// @param trials values of the output
+/// @param bootstrap random stream that selects the resampled rows
 OutputSensitivity output_sensitivity(const PointInputs& inputs, const SensitivityOutput& output,
                                      const TrialOutputs& trials, double confidence,
                                      const random::RandomStream& bootstrap);

@@ -68,7 +68,8 @@ struct Noise {
 };
 
 /// Fits a mean or, if `line`, a line to the trials of a class, and appends the squared deviations, corrected
-/// for the degrees of freedom (NaN without any). @returns number of coefficients of the fit
+/// for the degrees of freedom (NaN without any).
+/// @returns number of coefficients of the fit
 double add_squares(std::span<const Trial> part, bool line, std::vector<double>& squares) {
   const auto n = static_cast<double>(part.size());
   double x = 0.0;
@@ -129,7 +130,8 @@ Logarithm logarithm_of(const Noise& noise, std::span<const Trial> trials, const 
 }
 
 /// Upper confidence bound of a first-order Sobol' index whose estimate is close to 0.
-/// @param coefficients number p of fitted coefficients @param n number of trials
+/// @param coefficients number p of fitted coefficients
+/// @param n number of trials
 double bound_near_zero(double index, double coefficients, double n, double confidence) {
   const double z2 = std::pow(statistics::two_sided_normal_quantile(confidence), 2);
   const double a = 1.0 + 4.0 * z2 / n;
@@ -190,7 +192,8 @@ IndexValues index_values(const Eigen::VectorXd& sums, Eigen::Index factor, doubl
           own(of_difference_squared) / (2.0 * rows * variance_ac)};
 }
 
-// λ of a factor. @param without S of the factor with λ = 0.
+// λ of a factor.
+// @param without S of the factor with λ = 0.
 double control_coefficient(const SaltelliSample& sample, std::size_t factor, double without, double origin) {
   const auto rows = static_cast<Eigen::Index>(sample.a.size());
   const auto centred = [&](const std::vector<double>& values) -> Eigen::ArrayXd {

@@ -69,8 +69,8 @@ double position_between(const std::vector<double>& position, std::size_t k) {
   return (9.0 * (position[k] + position[k + 1]) - position[k - 1] - position[k + 2]) / 16.0;
 }
 
-/// Residual sum of squares of the regression of the windows' torques on known terms. @param wave wave that is
-/// added to the terms; null: none
+/// Residual sum of squares of the regression of the windows' torques on known terms.
+/// @param wave wave that is added to the terms; null: none
 double squares_left(const std::vector<WindowTerms>& windows, const PositionWave* wave) {
   const Eigen::Index known = windows.front().known.size();
   const Eigen::Index all = known + (wave == nullptr ? 0 : wave_terms);

@@ -29,7 +29,8 @@ std::vector<FittedWindow> windows_of(std::span<const SlidingRecord> records) {
 }
 
 /// Minimises the sum of squares of the residuals over the parameters and the windows' initial states, and
-/// stores both in the fit. @returns the minimum
+/// stores both in the fit.
+/// @returns the minimum
 double solve(SlidingFit& fit) {
   ceres::Problem problem;
   for (FittedWindow& fitted : fit.windows) {

@@ -267,8 +267,8 @@ std::string advice_on_lag(double lag, double delay) {
   return fmt::format("--delay {:.0f} says so, or record torque and position of the same instant", better);
 }
 
-/// Advice for the user on how to avoid the missing torque, depending on its cause. @param delay delay of the
-/// torque assumed so far, samples
+/// Advice for the user on how to avoid the missing torque, depending on its cause.
+/// @param delay delay of the torque assumed so far, samples
 std::string advice_on(const MissingTorque& torque, double delay) {
   switch (torque.cause) {
     case TorqueCause::lag:

@@ -225,10 +225,11 @@ class SlidingAxis {
 
   const Number& position() const { return position_; }
 
-  /// Advances the motion by `duration`, s. @param course drive torque during this time @param of_position
-  /// position-dependent torques against the drive, at the beginning, in the middle and at the end. They are
-  /// interpolated by a parabola, because a straight line would leave an error that looks like a second mass
-  /// where cogging passes within a few samples.
+  /// Advances the motion by `duration`, s.
+  /// @param course drive torque during this time
+  /// @param of_position position-dependent torques against the drive, at the beginning, in the middle and at
+  /// the end. They are interpolated by a parabola, because a straight line would leave an error that looks
+  /// like a second mass where cogging passes within a few samples.
   void advance(const motion::TorqueCourse& course, double duration,
                const std::array<Number, 3>& of_position) {
     const double rate = std::max(friction_rate_, motion::is_constant(course) ? 0.0 : course.rate);

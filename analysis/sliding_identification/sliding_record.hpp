@@ -122,7 +122,8 @@ using SlidingPoint = Eigen::Matrix<double, sliding_dimension, 1>;
 /// automatic differentiation. p is taken at the positions that were read, and between two of them at that of
 /// the cubic through four: their errors are small beside a wave, and p is then known but for its amplitudes.
 /// The evaluation fails where the motion is not finite.
-/// @param record and @param window must outlive the result.
+/// @param record and
+/// @param window must outlive the result.
 std::unique_ptr<ceres::CostFunction> window_residuals(const SlidingRecord& record, const Window& window);
 
 /// Travel after a standstill or a reversal, rad or m, beyond which the axis slides; 0 if the readings show no
@@ -140,8 +141,8 @@ std::unique_ptr<ceres::CostFunction> window_residuals(const SlidingRecord& recor
 /// errors, below which the deficit is on average as large at least (friction that varies along the axis makes
 /// other patterns). Laws approach their level exponentially, so four times the upper end of that band is
 /// returned, unless more than a quarter of the longest run would be lost.
-/// @param record record whose velocities are known @param runs motions in one direction, from a standstill or
-/// reversal to the next
+/// @param record record whose velocities are known
+/// @param runs motions in one direction, from a standstill or reversal to the next
 double presliding_travel(const SlidingRecord& record, std::span<const Window> runs);
 
 }  // namespace zerocount::sliding_identification

@@ -29,8 +29,8 @@ plant::Plant axis_of(const SlidingPoint& point, double velocity, double resoluti
   return {axis, friction, {.velocity = velocity}, {part_of_a_step * resolution}};
 }
 
-/// The fitted position-dependent torques as a disturbance of the simulation. @param x record's position at
-/// the simulation's θ = 0, rad or m
+/// The fitted position-dependent torques as a disturbance of the simulation.
+/// @param x record's position at the simulation's θ = 0, rad or m
 motion::Disturbance position_torque(const SlidingFit& fit, double x, double travel) {
   motion::Disturbance disturbance;
   for (std::size_t i = 0; i < fit.waves.size(); ++i) {

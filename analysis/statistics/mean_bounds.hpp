@@ -21,9 +21,10 @@ namespace zerocount::statistics {
 ///
 /// `low` holds whatever the distribution. `high` is a bound of the mean of min(X, cap), and of μ where no X
 /// exceeds `cap`.
-/// @param positive the values above 0 @param n number of all values, including zeros, n ≥ positive.size()
-/// @param cap upper limit of the values for `high`, above 0 @param confidence confidence of both bounds
-/// together
+/// @param positive the values above 0
+/// @param n number of all values, including zeros, n ≥ positive.size()
+/// @param cap upper limit of the values for `high`, above 0
+/// @param confidence confidence of both bounds together
 ConfidenceInterval betting_bounds(std::span<const double> positive, std::int64_t n, double cap,
                                   double confidence);
 
@@ -36,7 +37,7 @@ ConfidenceInterval betting_bounds(std::span<const double> positive, std::int64_t
 ///
 ///   B(s + ½, n − s + ½) / B(½, ½) / (pˢ·(1 − p)ⁿ⁻ˢ) ≤ 1/(1 − confidence),
 ///
-/// By Ville's inequality the probability that this fails for the true p at any n is at most 1 − confidence.
+/// The probability that this fails for the true p at any n is at most 1 − confidence (Ville's inequality).
 /// Sources: Robbins, Statistical methods related to the law of the iterated logarithm (1970); Howard, Ramdas,
 /// McAuliffe and Sekhon, Time-uniform, nonparametric, nonasymptotic confidence sequences (2021), section 3.
 ///

@@ -17,8 +17,8 @@ struct ConfidenceInterval {
 /// bounds in a results file.
 inline constexpr double summary_confidence = 0.95;
 
-/// Checks that a probability lies between 0 and 1. @throws Failure (bad_input) unless 0 < value < 1; `what`
-/// names it in the message.
+/// Checks that a probability lies between 0 and 1.
+/// @throws Failure (bad_input) unless 0 < value < 1; `what` names it in the message.
 void require_open_unit(const char* what, double value);
 inline void require_confidence(double confidence) {
   require_open_unit("confidence", confidence);

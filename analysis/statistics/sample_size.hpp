@@ -44,8 +44,8 @@ struct SequentialCost {
   double ratio() const { return static_cast<double>(sequential) / static_cast<double>(fixed); }
 };
 
-/// Computes the numbers of trials for both ways to fix them. @param block number of trials between two looks
-/// at the outcomes
+/// Computes the numbers of trials for both ways to fix them.
+/// @param block number of trials between two looks at the outcomes
 /// @throws Failure as trials_for_halfwidth.
 SequentialCost sequential_cost(double halfwidth, double confidence, double rate, std::int64_t block = 1);
 

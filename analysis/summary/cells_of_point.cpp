@@ -416,7 +416,8 @@ void add_judged_rates(Description<WorldsAtPoint>& description, const goal::Quest
 }
 
 /// Adds an item with the number of worlds (draws of what all machines share) in which the goal has this
-/// status. @param in_csv whether the CSV has a column for the number
+/// status.
+/// @param in_csv whether the CSV has a column for the number
 void add_number_of_worlds(Description<WorldsAtPoint>& description, goal::Status status, bool in_csv) {
   const std::string word(goal::text_of(status));
   description.value({.key = word,

@@ -57,8 +57,8 @@ struct CellOfPoint {
 enum class CellsBy { claim, setting, age };
 
 /// The claims on a design point (a goal that must be met in a setting), one cell for each goal and setting;
-/// empty without a goal. The bounds are those of verdict_on(). @param points number of points from which the
-/// point was chosen
+/// empty without a goal. The bounds are those of verdict_on().
+/// @param points number of points from which the point was chosen
 std::vector<CellOfPoint> claims_of_point(const StudySummary& summary, std::int64_t point,
                                          std::size_t points = 1);
 
@@ -75,8 +75,8 @@ std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t
 
 document::Description<CellOfPoint> cell_description(const goal::Question& question, CellsBy by);
 
-/// Index of the cell whose CellOfPoint::judged (proportion with bounds) is the worst. @param cells at least
-/// one, from a study without a goal
+/// Index of the cell whose CellOfPoint::judged (proportion with bounds) is the worst.
+/// @param cells at least one, from a study without a goal
 std::size_t worst_cell(const std::vector<CellOfPoint>& cells);
 
 /// The highest age up to which the goal is met at every age, in the unit of ages; empty if it is not met at
@@ -101,7 +101,8 @@ std::optional<worlds::PointWorlds> worlds_of_point(const StudySummary& summary, 
                                                    std::size_t chosen_from = 1);
 
 /// Parameters that differ between the worlds (draws of what all machines share) at a design point, and
-/// quantities derived from them. @param summary summary of a study with worlds
+/// quantities derived from them.
+/// @param summary summary of a study with worlds
 inline const std::vector<worlds::WorldInput>& world_inputs_of(const StudySummary& summary,
                                                               std::int64_t point) {
   return summary.world_inputs[static_cast<std::size_t>(point)];

@@ -93,7 +93,8 @@ struct JudgedPoint {
   std::optional<goal::Needs> needs{};
 };
 
-/// Judges the chosen point by the goal. @param summary summary of a study with a goal
+/// Judges the chosen point by the goal.
+/// @param summary summary of a study with a goal
 JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen);
 
 /// Headline on the chosen point: "best of 8 points: 3 (kp=400): the goal is met".

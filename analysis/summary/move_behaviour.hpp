@@ -95,7 +95,8 @@ class BehaviourCounter {
   std::vector<RowValues> rows_;
 };
 
-/// The behaviour of the moves at a design point, from a results file. @param study study of the file
+/// The behaviour of the moves at a design point, from a results file.
+/// @param study study of the file
 std::vector<MoveBehaviour> behaviour_in(const reading::AllTrialsFile& file, const study::Study& study,
                                         std::int64_t point = 0);
 

@@ -54,7 +54,8 @@ const std::vector<ObservedField>& observed_fields();
 
 /// The values of observed_fields() as columns for the results file, at the confidence 95 %; empty without
 /// observed counts.
-/// @param points consecutive design points @param first index of the first of these points
+/// @param points consecutive design points
+/// @param first index of the first of these points
 std::vector<layout::PointColumn> observed_columns(std::span<const measures::PointSummary> points,
                                                   const study::Study& study, std::int64_t first = 0);
 

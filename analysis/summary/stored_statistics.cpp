@@ -32,8 +32,8 @@ void add_columns(std::vector<layout::PointColumn>& columns, std::vector<layout::
 
 /// Adds the numbers of trials of a design point to the stored rows of its groups: worlds (draws of what all
 /// machines share), settings or ages. Nothing for an open-loop study, which has no judged trials.
-/// @param rows number of rows for each point @param groups member that returns the counts by world, or by
-/// setting
+/// @param rows number of rows for each point
+/// @param groups member that returns the counts by world, or by setting
 /// @param row_of returns the row to which a group is added
 void add_groups(layout::GroupCounts& stored, const measures::PointSummary& point, std::int64_t rows,
                 std::vector<measures::MoveCounts> (measures::CellCounts::*groups)() const,
@@ -110,7 +110,8 @@ void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& 
   if (!study.goals.empty()) add_lives(stored.groups["age"], stored.groups["machine"], point, study);
 }
 
-/// Adds the statistics of the next design points. @param first index of the first of these points
+/// Adds the statistics of the next design points.
+/// @param first index of the first of these points
 void add_points(layout::StoredStatistics& stored, std::span<const measures::PointSummary> points,
                 const study::Study& study, std::span<const theory::PointPrediction> predictions,
                 const layout::MeasureTable& table, std::int64_t first) {

@@ -32,7 +32,8 @@ struct StatisticsWork {
 
 /// Computes the stored statistics of all design points of a file and passes them to `take`, in blocks that
 /// fill a chunk of the file. The memory does not grow with the number of points.
-/// @param file holds all trials of `study`. @param predictions see theory::study_predictions
+/// @param file holds all trials of `study`.
+/// @param predictions see theory::study_predictions
 /// @throws Failure (interrupted) if `work.stop` requests it
 void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                             std::span<const theory::PointPrediction> predictions,

@@ -312,8 +312,8 @@ class BlockStages {
     }
   }
 
-  /// Adds the trials of a piece to the sums. @param jerks jerks from the first trial of the piece on; the
-  /// jerks of the piece are removed
+  /// Adds the trials of a piece to the sums.
+  /// @param jerks jerks from the first trial of the piece on; the jerks of the piece are removed
   void add_piece(SummedPoint& sums, layout::RowRange piece, const std::vector<trial::MoveOutcome>& outcomes,
                  std::span<const trial::Jerk>& jerks) const {
     const auto of_trial = static_cast<std::size_t>(file_.moves());
@@ -351,7 +351,8 @@ std::size_t blocks_at_once(std::size_t threads) {
   return std::min(threads + 2, threads / 4 + 6);
 }
 
-/// Checks that the work is to go on. @throws Failure (interrupted) if Wanted::stop requests an end
+/// Checks that the work is to go on.
+/// @throws Failure (interrupted) if Wanted::stop requests an end
 void require_no_stop(const Wanted& wanted) {
   if (wanted.stop.stop_requested())
     throw Failure(ExitCode::interrupted,

@@ -25,8 +25,9 @@ namespace zerocount::summary {
 /// the sums of the joint range, equal to the bit (docs/scaling.md: up to how many trials).
 class SummedPoint {
  public:
-  /// @param study, table must outlive this object. @param point index of the design point @param first_trial
-  /// index at the point of the first trial that is added
+  /// @param study, table must outlive this object.
+  /// @param point index of the design point
+  /// @param first_trial index at the point of the first trial that is added
   SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial,
               const layout::MeasureTable& table);
   /// Sums for a design point without a given table: all measures of this program version are summed.
@@ -42,13 +43,15 @@ class SummedPoint {
   /// see add_undecided().
   measures::PointAccumulator& trials() { return trials_; }
   /// Counts the undecided moves of trials (moves whose end within the hold does not tell success from
-  /// failure). @param rows global rows of the trials in the study
+  /// failure).
+  /// @param rows global rows of the trials in the study
   /// @param moves [trial, move]
   void add_undecided(layout::RowRange rows, std::span<const trial::MoveOutcome> moves);
   SummedPoint& operator+=(const SummedPoint& next);
 
   layout::PointSums sums() const;
-  /// Replaces all sums by stored ones. @throws Failure (bad_data) if the sums are impossible for this point
+  /// Replaces all sums by stored ones.
+  /// @throws Failure (bad_data) if the sums are impossible for this point
   void restore(const layout::PointSums& sums);
 
   measures::PointSummary statistics(double confidence, bool bootstrap) const;
@@ -106,12 +109,13 @@ struct PointResults {
 /// Files are read once, in blocks. The memory does not grow with the number of trials (see PointAccumulator).
 class StudyAccumulator {
  public:
-  /// @param study must outlive this object. @param take receives the results of each point, in order of
-  /// points
+  /// @param study must outlive this object.
+  /// @param take receives the results of each point, in order of points
   /// @throws Failure (bad_input) for a confidence outside (0, 1).
   StudyAccumulator(const study::Study& study, const Wanted& wanted, std::function<void(PointResults&&)> take);
 
-  /// Adds trials of a file. @param rows global rows, which follow those added before
+  /// Adds trials of a file.
+  /// @param rows global rows, which follow those added before
   /// @throws Failure (bad_data) if the file contradicts itself; the message names the trial. Failure
   /// (interrupted) if Wanted::stop requests it; so do the functions below.
   void add(const reading::AllTrialsFile& file, layout::RowRange rows);
@@ -137,7 +141,8 @@ class StudyAccumulator {
   std::optional<SummedPoint> point_;
 };
 
-/// Checks that a file is complete. @throws Failure (bad_data) unless it holds all trials of its study
+/// Checks that a file is complete.
+/// @throws Failure (bad_data) unless it holds all trials of its study
 void require_all_trials(const reading::AllTrialsFile& file);
 
 /// The statistics of every design point of a complete results file, [point].

@@ -139,8 +139,8 @@ class TrialsSoFar {
   /// Takes the trials of a file that were not taken before. If the statistics depend on the order of trials
   /// (depend_on_order()), only trials that continue those taken are used: machines then have equal numbers of
   /// trials, and a design is spread evenly.
-  /// @param divisible whether some trials of a design point can be taken without its other trials @param take
-  /// adds trials to the sums
+  /// @param divisible whether some trials of a design point can be taken without its other trials
+  /// @param take adds trials to the sums
   template <class Take>
   void add(const reading::ResultsFile& file, bool divisible, const Take& take) {
     for (std::int64_t i = 0; i < file.points(); ++i) {

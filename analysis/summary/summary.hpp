@@ -71,8 +71,8 @@ struct StudySummary {
 /// The indices of the design points with all statistics (StudySummary::complete, or every point).
 std::vector<std::int64_t> points_with_all_statistics(const StudySummary& summary);
 
-/// Checks a summary. @throws Failure (bad_data) unless labels, axes, statistics and predictions have the same
-/// number of points
+/// Checks a summary.
+/// @throws Failure (bad_data) unless labels, axes, statistics and predictions have the same number of points
 void require_consistent(const StudySummary& summary);
 
 /// Text on the observations on the real machine at the design point; empty if there are none.
@@ -98,7 +98,8 @@ StudySummary summary_without_points(const reading::ResultsFile& file, double con
 
 /// Computes all statistics of some design points of a summary that has points already. They become
 /// StudySummary::complete.
-/// @param points indices of the points, rising @param bootstrap whether means get bounds by resampling
+/// @param points indices of the points, rising
+/// @param bootstrap whether means get bounds by resampling
 void complete_points(StudySummary& summary, const reading::AllTrialsFile& file,
                      std::vector<std::int64_t> points, bool bootstrap);
 void complete_points(StudySummary& summary, const reading::ResultsFile& file,

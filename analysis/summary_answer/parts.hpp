@@ -76,7 +76,8 @@ struct SummaryResults {
 
 DescribedPoint read_point(const summary::StudySummary& summary, std::int64_t point);
 
-/// Computes the results for the answer of a summary. @param summary must outlive the result
+/// Computes the results for the answer of a summary.
+/// @param summary must outlive the result
 /// @throws Failure (bad_data) if the summary is inconsistent
 SummaryResults read_summary(const summary::StudySummary& summary, const SummaryForm& form = {});
 

@@ -308,8 +308,9 @@ bool has_several_trials_of_machines(const StudySummary& summary) {
                    [](Statistics point) { return point.machines.n > 0 && point.trials > point.machines.n; });
 }
 
-/// Adds a column of text, made from the statistics of each design point. @param cell returns the text @param
-/// table title of the table; empty: the table of points
+/// Adds a column of text, made from the statistics of each design point.
+/// @param cell returns the text
+/// @param table title of the table; empty: the table of points
 template <typename Cell>
 void add_text_column(PointDescription& point, const std::string& table, const std::string& heading,
                      const std::string& meaning, Cell cell) {

@@ -83,8 +83,8 @@ std::optional<std::vector<double>> csv_values(const StudySummary& summary, const
 
 using KnownValues = std::map<std::string, std::vector<double>>;
 
-/// [point] The values with this name: a swept parameter, a stored statistic or a column of the CSV. @param
-/// known values that the file stores
+/// [point] The values with this name: a swept parameter, a stored statistic or a column of the CSV.
+/// @param known values that the file stores
 /// @throws Failure (bad_input) for an unknown name
 std::vector<double> values_of(const StudySummary& summary, std::string_view name, const KnownValues& known) {
   const study::SweepAxis* const axis = find_axis(summary, name);
@@ -171,7 +171,8 @@ std::vector<bool> texts_hold(const std::vector<std::string>& texts, const text::
   return holds;
 }
 
-/// [point] Whether the condition `text`, such as "kp > 0", holds. @param known values that the file stores
+/// [point] Whether the condition `text`, such as "kp > 0", holds.
+/// @param known values that the file stores
 std::vector<bool> holds_at(const StudySummary& summary, const std::string& text, const KnownValues& known) {
   const text::Relation condition = parts_of_condition(text);
   if (const std::vector<std::string>* const texts = texts_of(summary, condition.name))

@@ -28,8 +28,8 @@ std::vector<std::string> columns_needed(const summary::StudySummary& summary,
 /// Whether the selection names a bound of a mean by resampling ("arrival_time.mean_low").
 bool needs_mean_bounds(const PointSelection& selection);
 
-/// Checks that a selection is possible. @throws Failure (bad_input) if the summary lacks a value that the
-/// selection needs
+/// Checks that a selection is possible.
+/// @throws Failure (bad_input) if the summary lacks a value that the selection needs
 void require_columns(const summary::StudySummary& summary, const PointSelection& selection);
 
 /// Indices of the design points that meet all conditions, in the order of the selection; `top` is ignored.

@@ -178,7 +178,8 @@ bool is_repeated(const SourceValues& reading) {
 }
 
 /// Table rows of repeatability values: all design points and sources of positions, for each of the first
-/// `targets` targets. @param targets 1 for tables that do not distinguish targets
+/// `targets` targets.
+/// @param targets 1 for tables that do not distinguish targets
 std::vector<SourceValues> rows_of(const SummaryResults& s, std::size_t targets) {
   std::vector<SourceValues> rows;
   for (const DescribedPoint& point : s.points) {

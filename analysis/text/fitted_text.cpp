@@ -119,8 +119,8 @@ std::size_t readable_width(const TextColumn& column, std::size_t wide) {
   return std::min(width, wide);
 }
 
-/// Appends a row of a table to `text`: its cells side by side. @param row index of the row; nothing: the
-/// heads
+/// Appends a row of a table to `text`: its cells side by side.
+/// @param row index of the row; nothing: the heads
 void append_row(std::string& text, const std::vector<ShownColumn>& columns, std::optional<std::size_t> row) {
   std::vector<std::vector<std::string>> cells;
   std::size_t height = 1;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-/// What a recorded motion comes to: rest, or a cycle that lasts.
+/// Decides how a recorded motion ends: at rest, or in a cycle that lasts.
 ///
 /// A record of n samples is judged by its octaves: the last one are the samples n/2 … n − 1, the one before
 /// n/4 … n/2 − 1. A motion that decays by a power of the time looks alike in all parts of a record, except in
@@ -42,8 +42,8 @@ std::optional<Cycle> lasting_cycle(std::span<const float> positions);
 ///   - or its range is alike in the quarters of the last octave, and within that of the octave before: it
 ///     oscillates quickly
 ///
-/// @param torques [sample] commanded torque, N m @param tolerance change of the torque that does not move the
-/// axis, N m
+/// @param torques [sample] commanded torque, N m
+/// @param tolerance change of the torque that does not move the axis, N m
 bool torque_has_settled(std::span<const float> torques, double tolerance);
 
 }  // namespace zerocount::theory

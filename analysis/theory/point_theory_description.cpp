@@ -35,7 +35,8 @@ string phase_margin_text(const LoopRanges& loop) {
   return margin_text(loop.phase, "°", loop.phase_at).value_or("no gain crossover");
 }
 
-/// Adds output items for a stability margin with its frequency. @param text text for people
+/// Adds output items for a stability margin with its frequency.
+/// @param text text for people
 void add_margin(Description<LoopRanges>& description, const string& key, const string& name, const char* unit,
                 Range LoopRanges::*margin, Range LoopRanges::*frequency, string (*text)(const LoopRanges&)) {
   description.value(everywhere(key, name, name, unit), margin)

@@ -37,7 +37,8 @@ double poisson_number(double mean, std::uint64_t bits);
 /// other, so the variance of sums does not change.
 class Continuation {
  public:
-  /// @param units number of units in the sample @param stream number of the stream of its random numbers
+  /// @param units number of units in the sample
+  /// @param stream number of the stream of its random numbers
   Continuation(std::int64_t units, std::uint32_t stream);
 
   std::int64_t units() const { return units_; }
@@ -108,12 +109,14 @@ class ContinuedSample {
 
   /// Adds units of two kinds that the sample may not contain: pairs of which only one failed, in either
   /// direction, or failures and successes.
-  /// @param sums sums of a sample of failures @param first_kind, second_kind numbers of units to add
+  /// @param sums sums of a sample of failures
+  /// @param first_kind, second_kind numbers of units to add
   void add_unseen(Sums& sums, double first_kind, double second_kind) const;
 
   /// change_of() a sample with these sums, quick enough for simulations: the p-values are approximations by
   /// the normal distribution, ranks keep the scores that they have in the sample, and the bounds of failures
-  /// are exact. @param ranks whether the rank test counts too
+  /// are exact.
+  /// @param ranks whether the rank test counts too
   Change change_of(const FileSums& sums, double confidence, bool ranks, double margin = 0.0) const;
 
  private:
@@ -126,8 +129,8 @@ class ContinuedSample {
 };
 
 /// One-sided bounds of a mean as cautious_bounds() gives them, but quick, each with a confidence of its own.
-/// @param sums number of values, their sum and the sum of their squares @param plausible plausible difference
-/// of a single unit
+/// @param sums number of values, their sum and the sum of their squares
+/// @param plausible plausible difference of a single unit
 statistics::ConfidenceInterval quick_bounds(const Sums& sums, double plausible, double low_confidence,
                                             double high_confidence);
 

@@ -149,8 +149,8 @@ DirectionalP larger(const DirectionalP& one, const DirectionalP& other) {
   return {std::max(one.worse, other.worse), std::max(one.better, other.better)};
 }
 
-/// p-values of a change within ± margin, for Change::beyond. @param none p_of() the sample: p-values of no
-/// change
+/// p-values of a change within ± margin, for Change::beyond.
+/// @param none p_of() the sample: p-values of no change
 DirectionalP beyond(const DirectionalP& none, const Sample& sample, double margin) {
   if (margin == 0.0) return none;
   return larger(none, sample.failures ? levels_of_failures(sample, margin) : levels_of_mean(sample, margin));

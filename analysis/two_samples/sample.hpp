@@ -85,7 +85,8 @@ MeanDifference mean_difference(std::span<const double> differences);
 
 /// Difference of the means of two independent samples with variances of their own (Welch, Biometrika 34
 /// (1947), 28): current − baseline.
-/// @param baseline two or more, @param current two or more
+/// @param baseline two or more,
+/// @param current two or more
 MeanDifference mean_difference(std::span<const double> baseline, std::span<const double> current);
 
 /// Mean difference of the known values of the sample: paired or of independent samples, as Sample::paired
@@ -138,8 +139,8 @@ Change change_of(const QuantileSample& sample, double confidence, double margin 
 /// order the mean of what each unit has to do with it (Bahadur, Annals of Mathematical Statistics 37 (1966),
 /// 577): its proportion of values at or above the quantile, times the scale with which their mean varies as
 /// much as the bounds say.
-/// @param change change of the quantile in this sample, with finite bounds @param standard_error standard
-/// error of a normal distribution with these
+/// @param change change of the quantile in this sample, with finite bounds
+/// @param standard_error standard error of a normal distribution with these
 Sample linearised(const QuantileSample& sample, const Change& change, double standard_error);
 
 }  // namespace zerocount::two_samples

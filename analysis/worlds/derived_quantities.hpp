@@ -21,7 +21,8 @@ struct DerivedQuantity {
   /// Parameter that the command `zerocount identify` estimates from the same kind of record, see record_of().
   std::string_view parameter;
   bool (*exists)(friction::FrictionModel model);
-  /// Computes the quantity in `unit`. @param torque torque that the contact carries at rest, N m, above 0
+  /// Computes the quantity in `unit`.
+  /// @param torque torque that the contact carries at rest, N m, above 0
   double (*value)(const friction::FrictionParameters& contact, double torque);
 };
 

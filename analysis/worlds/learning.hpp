@@ -50,10 +50,11 @@ struct Learned {
 ///       possible = other worlds within ±precision of its value, or the four nearest if these are fewer
 ///       all possible worlds are like it: decided; all are unlike it: misjudged; otherwise open
 ///
-/// @param bad [world] true if the world misses the goal @param precision relative error of the measurement,
-/// above 0 @param seed seed of the 399 permutations for the p-values, which allow for the number of
-/// parameters and for what these have in common (the smallest p-value of each permutation: Westfall and
-/// Young, Resampling-Based Multiple Testing, 1993)
+/// @param bad [world] true if the world misses the goal
+/// @param precision relative error of the measurement, above 0
+/// @param seed seed of the 399 permutations for the p-values, which allow for the number of parameters and
+/// for what these have in common (the smallest p-value of each permutation: Westfall and Young,
+/// Resampling-Based Multiple Testing, 1993)
 std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const std::vector<bool>& bad,
                                    double precision, std::uint64_t seed);
 

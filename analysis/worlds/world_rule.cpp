@@ -115,8 +115,9 @@ class Search {
   }
 
  private:
-  /// Replaces `best` by the rule with these worlds and conditions, if that is better. @param named worlds
-  /// that satisfy the rule @param all whether all conditions must hold
+  /// Replaces `best` by the rule with these worlds and conditions, if that is better.
+  /// @param named worlds that satisfy the rule
+  /// @param all whether all conditions must hold
   /// @param conditions function that makes the conditions of the rule
   void consider(Candidate& best, const Named& named, bool all, const auto& conditions) const {
     Candidate candidate{{}, all, named, 1.0, all_.bad - named.bad + named.good};

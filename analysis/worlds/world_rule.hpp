@@ -16,8 +16,8 @@ namespace zerocount::worlds {
 /// Number of random permutations of a permutation test.
 inline constexpr int permutations = 399;
 
-/// The numbers 0, 1, …, size − 1 in a random order (Fisher and Yates). @param number number of the
-/// permutation, which determines its random numbers
+/// The numbers 0, 1, …, size − 1 in a random order (Fisher and Yates).
+/// @param number number of the permutation, which determines its random numbers
 std::vector<std::size_t> permutation_of(std::size_t size, const random::RandomKey& key, std::uint32_t number);
 
 /// The p-value of a statistic if `as_good` of the random permutations reach it: (1 + as_good)/(1 +
@@ -83,7 +83,8 @@ inline constexpr double significance_of_rules = 0.05;
 ///     two conditions (and, or) take its place if they name at least two worlds fewer wrongly
 ///     p-value = by the same search on 399 permutations of the worlds' rates
 ///
-/// @param rates [world] success rate or proportion in goal @param bad [world] true if the rate is too low
+/// @param rates [world] success rate or proportion in goal
+/// @param bad [world] true if the rate is too low
 /// @param seed seed of the permutations
 /// @returns nothing if all worlds are bad or none is, or the p-value is above significance_of_rules
 std::optional<WorldRule> find_rule(const std::vector<WorldInput>& inputs, const std::vector<double>& rates,

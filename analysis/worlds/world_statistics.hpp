@@ -25,8 +25,8 @@ struct RatesOfWorlds {
   goal::BoundedProportion lowest{};
 };
 
-/// The success rate of each world from its counts; every world must have trials. @param confidence confidence
-/// of each one-sided bound
+/// The success rate of each world from its counts; every world must have trials.
+/// @param confidence confidence of each one-sided bound
 RatesOfWorlds rates_of_worlds(const std::vector<measures::MoveCounts>& worlds, double confidence);
 
 /// The results of a design point by world: one draw of what all machines share and nobody knows.
@@ -46,8 +46,9 @@ struct PointWorlds {
 /// A world is bad if fewer of its moves (or machines) than a goal asks for meet it, in any setting.
 /// Without a goal it is bad if its rate of success, on average over the settings, is shown to be below the
 /// median.
-/// @param point statistics of a design point of a study with worlds @param inputs parameters that differ
-/// between the worlds @param seed seed of the study
+/// @param point statistics of a design point of a study with worlds
+/// @param inputs parameters that differ between the worlds
+/// @param seed seed of the study
 /// @param points number of points from which the point was chosen, see goal::judge_goal()
 PointWorlds point_worlds(const measures::PointSummary& point, const goal::Question& all,
                          std::span<const WorldInput> inputs, std::uint64_t seed, double confidence,

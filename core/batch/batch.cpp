@@ -9,7 +9,8 @@
 namespace zerocount::batch {
 namespace {
 
-/// Runs all trials of the batch in the engine's lanes. @throws trial::Interrupted if a stop is requested
+/// Runs all trials of the batch in the engine's lanes.
+/// @throws trial::Interrupted if a stop is requested
 void run_lanes(RunningBatch& run) {
   for (int lane = 0; lane < run.used_lanes; ++lane) start_next_trial(run, lane);
   while (!run.lanes.active.empty()) {

@@ -48,7 +48,7 @@ struct BatchObservers {
   /// Called at every sampling instant of every trial.
   std::function<void(const BatchSample&)> sample;
   std::stop_token stop{};  ///< Stops the batch when a stop is requested: run() then throws
-                           ///< trial::Interrupted.
+                           /// < trial::Interrupted.
 };
 
 /// Function that returns the parameters of the trial with index `trial` when the batch engine starts to run
@@ -84,14 +84,15 @@ class BatchEngine {
   BatchEngine& operator=(BatchEngine&&) = delete;
 
   /// Runs the trials 0 to outcomes.size() − 1 and stores their outcomes.
-  /// @param source returns the parameters of a trial; called once for each trial, in order. @param outcomes
-  /// [trial], overwritten.
+  /// @param source returns the parameters of a trial; called once for each trial, in order.
+  /// @param outcomes [trial], overwritten.
   /// @throws trial::Interrupted if a stop is requested before the last trial ends. The outcomes of the trials
   /// that have ended are then complete, and the other outcomes have no moves.
   void run(const TrialSource& source, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers = {});
-  /// Runs these trials and stores their outcomes. @param trials parameters of the trials; they must not
-  /// change during the run. @param outcomes [trial], overwritten.
+  /// Runs these trials and stores their outcomes.
+  /// @param trials parameters of the trials; they must not change during the run.
+  /// @param outcomes [trial], overwritten.
   void run(std::span<const trial::TrialParameters* const> trials, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers = {});
 

@@ -87,7 +87,8 @@ inline motion::LoadFriction* to_load_friction(FrictionOfLoad& friction) {
 }
 
 /// Creates the friction of a second mass in its initial state.
-/// @param inertia inertia JL of the mass, kg m². @param velocity velocity ωL of the mass at the start, rad/s.
+/// @param inertia inertia JL of the mass, kg m².
+/// @param velocity velocity ωL of the mass at the start, rad/s.
 FrictionOfLoad friction_of_load(const LoadFrictionParameters& friction, double inertia, double velocity);
 
 }  // namespace zerocount::friction

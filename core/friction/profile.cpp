@@ -29,7 +29,8 @@ double field_at(const Profile& profile, double position) {
 namespace {
 
 /// The normally distributed value behind the friction parameter: the value itself (normal), or its logarithm
-/// (lognormal). @param field Gaussian field g.
+/// (lognormal).
+/// @param field Gaussian field g.
 double normal_value(const Profile& profile, double field) {
   return profile.location + profile.scale * field;
 }

@@ -99,8 +99,8 @@ double ConverterErrors::with_errors(std::int64_t k, std::int64_t code) const {
                                    random::random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
 }
 
-/// The piece of the motor's torque with the amplifier input `input` that follows the piece `last`. @param
-/// part its duration, and the decay of the amplifier's lag in it.
+/// The piece of the motor's torque with the amplifier input `input` that follows the piece `last`.
+/// @param part its duration, and the decay of the amplifier's lag in it.
 TorquePiece Drive::follow(double input, const TorquePiece& last, const Part& part) const {
   if (rate_ == 0.0) return {motion::constant_torque(input), part.duration, 1.0};
   double lag = (last.course.now - last.course.settled) * last.decay;

@@ -23,8 +23,8 @@ class TorqueDelay {
     double after;
   };
 
-  /// Creates a delay of `samples` samples. @param held the torque that leaves the delay until the first
-  /// decided one has passed it, N m.
+  /// Creates a delay of `samples` samples.
+  /// @param held the torque that leaves the delay until the first decided one has passed it, N m.
   explicit TorqueDelay(double samples, double held = 0.0);
 
   Leaving pass(double torque);
@@ -41,7 +41,7 @@ struct TorquePiece {
   motion::TorqueCourse course;
   double duration{0.0};  ///< Duration of the part, s
   double decay{0.0};     ///< Factor by which the amplifier's lag decays over the part:
-                         ///< exp(−course.rate·duration)
+                         /// < exp(−course.rate·duration)
 };
 
 /// The converter's output torque for a code, with its errors: torque_with_errors(code) + noise·z_k, z_k the
@@ -98,8 +98,8 @@ class Drive {
   Drive(const DacParameters& dac, const AmplifierParameters& amplifier, double delay, double sample_time,
         const random::TrialRandomness& randomness, bool jitter = false, double held = 0.0);
 
-  /// Sends the code decided at sample k through converter, delay and amplifier. @param late lateness of this
-  /// and the next sample.
+  /// Sends the code decided at sample k through converter, delay and amplifier.
+  /// @param late lateness of this and the next sample.
   void send(std::int64_t k, const DacOutput& decided, const Lateness& late = {}) {
     apply(converter_.torque(k, decided), late);
   }

@@ -55,8 +55,8 @@ struct EncoderReading {
   std::int64_t other{0};   ///< Count of the encoder on the other mass; 0 without one
 };
 
-/// The fine encoder of a trial, without errors. @param phase position of θ = 0 within a count, in [0, 1); the
-/// coarse encoder has the same phase.
+/// The fine encoder of a trial, without errors.
+/// @param phase position of θ = 0 within a count, in [0, 1); the coarse encoder has the same phase.
 inline Encoder fine_encoder(const EncoderParameters& encoders, double phase) {
   return {fine_resolution(encoders), phase};
 }
@@ -105,7 +105,7 @@ inline double counts_per_sample(const CountsBefore& before) {
 /// Angles, velocity and encoder phases of the masses when a trial starts.
 struct StartOfMotion {
   double phase{0.5};        ///< Position of θ = 0 within a count of the encoder that closes the loop, in [0,
-                            ///< 1)
+                            /// < 1)
   double other_phase{0.5};  ///< Position of θ = 0 within a count of the encoder on the other mass, in [0, 1)
   double theta{0.0};        ///< Angle of the mass that closes the loop, rad.
   double other_theta{0.0};  ///< Angle of the other mass, rad.

@@ -5,7 +5,8 @@
 /// Formulas of the sampled control loop, as templates for double and for the vectors of the batch engine.
 namespace zerocount::loop {
 
-/// Count of the ideal encoder at the angle θ: floor(θ/Δx + phase). @param resolution Δx, rad per count.
+/// Count of the ideal encoder at the angle θ: floor(θ/Δx + phase).
+/// @param resolution Δx, rad per count.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number ideal_count(const Number& theta, const Number& resolution,
                                            const Number& phase) {
@@ -22,7 +23,9 @@ struct NoiseConstants {
 };
 
 /// Next value of an encoder's noise in standard deviations, w_k = a·w_{k−1} + √(1 − a²)·z_k, w_0 = z_0.
-/// @param last w_{k−1}. @param first whether k = 0. @param drawn standard normal number z_k.
+/// @param last w_{k−1}.
+/// @param first whether k = 0.
+/// @param drawn standard normal number z_k.
 template <class Number, class Mask>
 ZEROCOUNT_ALWAYS_INLINE Number next_noise(const NoiseConstants<Number>& c, const Number& last,
                                           const Mask& first, const Number& drawn) {
@@ -30,8 +33,9 @@ ZEROCOUNT_ALWAYS_INLINE Number next_noise(const NoiseConstants<Number>& c, const
 }
 
 /// Whether two ideal encoders show these counts at one and the same rotor angle (see counts_agree()).
-/// @param from beginning of the fine count, (c − phase)·q + phase, in coarse counts. @param ratio q, length
-/// of a fine count in coarse counts. @param coarse count of the coarse encoder.
+/// @param from beginning of the fine count, (c − phase)·q + phase, in coarse counts.
+/// @param ratio q, length of a fine count in coarse counts.
+/// @param coarse count of the coarse encoder.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto counts_may_coincide(const Number& from, const Number& ratio,
                                                  const Number& coarse) {
@@ -44,8 +48,10 @@ ZEROCOUNT_ALWAYS_INLINE Number clamped(const Number& value, const Number& lowest
   return min(max(value, lowest), highest);
 }
 
-/// Torque of the PID law, I + kp·e − kd·d, N m. @param integral I. @param error e, counts. @param d
-/// difference of successive counts, filtered or not.
+/// Torque of the PID law, I + kp·e − kd·d, N m.
+/// @param integral I.
+/// @param error e, counts.
+/// @param d difference of successive counts, filtered or not.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number pid_torque(const Number& integral, const Number& kp, const Number& error,
                                           const Number& kd, const Number& d) {
@@ -64,7 +70,7 @@ struct PidState {
 template <class Number>
 struct PidConstants {
   Number kp, ki, kd;       ///< Gains on the error, its trapezoidal integral, and the difference of counts, N
-                           ///< m/count
+                           /// < m/count
   Number lowest, highest;  ///< Range to which the integral I is clamped, N m
 };
 
@@ -82,7 +88,8 @@ ZEROCOUNT_ALWAYS_INLINE Number pid_step(const PidConstants<Number>& c, PidState<
 }
 
 /// Code of the digital-to-analogue converter for a torque, before it is limited to the range:
-/// round-half-even(torque/Δu), a whole number. @param resolution Δu, N m.
+/// round-half-even(torque/Δu), a whole number.
+/// @param resolution Δu, N m.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number wanted_code(const Number& torque, const Number& resolution) {
   return rint(torque / resolution);
@@ -96,8 +103,8 @@ ZEROCOUNT_ALWAYS_INLINE Number clipped_code(const Number& wanted, const Number& 
 }
 
 /// The rounding error that a sigma-delta converter adds to the next torque, N m; 0 if the code was clipped.
-/// @param torque wanted torque, including the rounding error of the sample before, N m. @param converted
-/// torque of the rounded code, code·Δu, N m.
+/// @param torque wanted torque, including the rounding error of the sample before, N m.
+/// @param converted torque of the rounded code, code·Δu, N m.
 template <class Number, class Mask>
 ZEROCOUNT_ALWAYS_INLINE Number rounding_remainder(const Number& torque, const Number& converted,
                                                   const Mask& clipped) {

@@ -13,7 +13,8 @@ namespace zerocount::loop {
 /// Whether any of these errors makes the encoder's readings differ from those of an ideal encoder.
 bool has_errors(const EncoderErrors& errors);
 
-/// Constants of an encoder's noise, from its standard deviation and bandwidth. @param sample_time T, s.
+/// Constants of an encoder's noise, from its standard deviation and bandwidth.
+/// @param sample_time T, s.
 NoiseConstants<double> noise_constants(const EncoderErrors& errors, double sample_time);
 
 /// Whether two ideal encoders can show these two counts at one and the same rotor angle. Let q be the number
@@ -39,9 +40,10 @@ bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReadi
 /// first sample.
 class ImperfectEncoder {
  public:
-  /// Creates the encoder at the start of a trial. @param position position of the contact on the rotor at θ =
-  /// 0, rad. @param sample_time T, s. @param noise, missed random number streams of the noise and of missed
-  /// counts.
+  /// Creates the encoder at the start of a trial.
+  /// @param position position of the contact on the rotor at θ = 0, rad.
+  /// @param sample_time T, s.
+  /// @param noise, missed random number streams of the noise and of missed counts.
   ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position, double sample_time,
                    std::uint64_t trial, const random::RandomStream& noise,
                    const random::RandomStream& missed);
@@ -73,8 +75,8 @@ class ImperfectEncoder {
 /// All encoders of a trial, with their errors. Without errors, read_count() gives their readings.
 class Measurement {
  public:
-  /// Creates the encoders. @param phase position of θ = 0 within a count of the fine and of the coarse
-  /// encoder, in [0, 1).
+  /// Creates the encoders.
+  /// @param phase position of θ = 0 within a count of the fine and of the coarse encoder, in [0, 1).
   /// @param other_phase position of θ = 0 within a count of the encoder on the other mass.
   /// @param position position on the rotor (rad) at θ = 0.
   /// @param sample_time T, s, for the bandwidth of the encoders' noise.
@@ -82,8 +84,8 @@ class Measurement {
               const random::TrialRandomness& randomness, double sample_time = 1.0, double other_phase = 0.5);
 
   /// The counts of all encoders at sample k. Call with ascending k.
-  /// @param theta angle of the mass that closes the loop, rad. @param other_theta angle of the other mass,
-  /// rad.
+  /// @param theta angle of the mass that closes the loop, rad.
+  /// @param other_theta angle of the other mass, rad.
   EncoderReading read(std::int64_t k, double theta, double other_theta = 0.0) {
     EncoderReading reading = ideal_ ? EncoderReading{read_count(fine_, theta), read_count(coarse_, theta)}
                                     : read_with_errors(k, theta);

@@ -196,8 +196,8 @@ struct ControlBlocks {
 };
 
 /// Two-phase (dual mode) control (paper, end of section 2): gains of the coarse phase, and conditions for
-/// leaving and entering it. All counts are counts of the fine encoder; a phase that is fed back from the
-/// coarse encoder multiplies that encoder's count by fine/coarse.
+/// leaving and entering it. All values in counts are in counts of the fine encoder: a phase that is fed back
+/// from the coarse encoder converts that encoder's count first, by the ratio of the two resolutions.
 struct CoarsePhaseParameters {
   double kp{5.0e-4};                           ///< Proportional gain in the coarse phase, N m/count
   double ki{2.0e-6};                           ///< Integral gain of the trapezoidal rule in the coarse phase,

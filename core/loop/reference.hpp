@@ -30,7 +30,8 @@ double record_duration(std::span<const double> times, double sample_time);
 /// "Trajectory Planning for Automatic Machines and Robots", Springer 2008, sections 3.2 and 3.4.
 class Reference {
  public:
-  /// Creates the reference of one move. @param profile shape and limits; the limits are above 0.
+  /// Creates the reference of one move.
+  /// @param profile shape and limits; the limits are above 0.
   /// @param from, to targets before and after the move, counts.
   /// @param resolution Δx, rad per count.
   Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution);
@@ -52,7 +53,7 @@ class Reference {
   double duration() const { return duration_; }
 
   double travel_time() const;  ///< Time until the reference stands at its target, s; NaN for a sine and a
-                               ///< record, which never come to rest
+                               /// < record, which never come to rest
   bool is_sine() const { return angular_frequency_ > 0.0; }
   /// Whether the reference is a sine or a record, not a move between two targets.
   bool moves_for_ever() const { return is_sine() || record_ != nullptr; }

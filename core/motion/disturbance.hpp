@@ -51,7 +51,8 @@ struct VaryingTorque {
 /// Value of the varying torque, Σ ripple + Σ vibration, N m.
 double value(const VaryingTorque& torque);
 
-/// Rate of change of the varying torque along the motion, N m/s. @param omega velocity ω of the mass, rad/s.
+/// Rate of change of the varying torque along the motion, N m/s.
+/// @param omega velocity ω of the mass, rad/s.
 double rate(const VaryingTorque& torque, double omega);
 
 /// Sum of the ripples at the angle θ (rad), Σ amplitude·sin(per_angle·θ + phase), in the unit of their

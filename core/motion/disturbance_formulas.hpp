@@ -12,14 +12,16 @@ namespace zerocount::motion {
 ///
 ///   ds/dt = q·ω·c,   dc/dt = −q·ω·s.
 ///
-/// The coefficients of order 0 are given. @tparam Series an array of the coefficients.
+/// The coefficients of order 0 are given.
+/// @tparam Series an array of the coefficients.
 template <class Series>
 struct WaveSeriesOf {
   Series sine;
   Series cosine;
 
   /// Computes the coefficients k ≥ 1 of sine and cosine, given the coefficients of the velocity ω up to k −
-  /// 1. @param per_angle q.
+  /// 1.
+  /// @param per_angle q.
   template <class Number>
   ZEROCOUNT_ALWAYS_INLINE void expand(const Number& per_angle, const Number* omega, std::size_t k) {
     Number of_sine(0.0);
@@ -35,7 +37,8 @@ struct WaveSeriesOf {
 };
 
 /// Adds the Taylor coefficients of the vibration A·sin(rate·t + φ) about t = 0 to a series that ends with the
-/// power `order`. @param sine, cosine A·sin φ and A·cos φ.
+/// power `order`.
+/// @param sine, cosine A·sin φ and A·cos φ.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE void add_line(const Number& rate, Number sine, Number cosine, std::size_t order,
                                       Series& series) {

@@ -19,9 +19,10 @@ class LoadFriction {
  public:
   virtual ~LoadFriction() = default;
   virtual void start(const Load& load) = 0;
-  /// Computes coefficient k of the friction's series. @param omega series of the load's velocity ωL, known up
-  /// to coefficient k. @param torque coefficient k of the torque on the load without friction, N m. @returns
-  /// coefficient k of JL·dωL/dt, N m.
+  /// Computes coefficient k of the friction's series.
+  /// @param omega series of the load's velocity ωL, known up to coefficient k.
+  /// @param torque coefficient k of the torque on the load without friction, N m.
+  /// @returns coefficient k of JL·dωL/dt, N m.
   virtual double expand(const numerics::Series& omega, double torque, std::size_t k) = 0;
   /// The longest step (s), at most `duration`, in which the errors of the friction's own state stay within
   /// `tolerance` (rad).
@@ -29,8 +30,8 @@ class LoadFriction {
   /// Time of the first event of the friction within `step`, s; empty if there is none. An event at 0 means
   /// that the series do not describe the motion to come.
   virtual std::optional<double> next_event(const numerics::Series& omega, double step) = 0;
-  /// Advances the friction's state by `time` (s). @param at_event whether its event occurs at that time, and
-  /// is to be processed.
+  /// Advances the friction's state by `time` (s).
+  /// @param at_event whether its event occurs at that time, and is to be processed.
   virtual void go_to(double time, bool at_event, Load& load) = 0;
 };
 
@@ -48,11 +49,11 @@ struct Load {
   double omega{0.0};                ///< Angular velocity ωL of the load, rad/s
   std::vector<Ripple> error{};      ///< Kinematic error ε of the coupling as a function of the rotor's angle
   Disturbance disturbance{};        ///< Disturbance torque `dist` on the load, with ripples as functions of
-                                    ///< the load's angle
+                                    /// < the load's angle
   double rotor_theta{0.0};          ///< Rotor angle θ, rad; set before each step
   double time{0.0};                 ///< Time t of the disturbance, s; set before each step
   LoadFriction* friction{nullptr};  ///< Friction between load and frame; null without friction; set before
-                                    ///< each step
+                                    /// < each step
 };
 
 /// Properties of the second mass (load) apart from a plain coupling: kinematic error, disturbance of the
@@ -70,7 +71,8 @@ inline bool is_plain(const Load& load) {
          load.disturbance.torque == 0.0 && !varies(load.disturbance) && load.friction == nullptr;
 }
 
-/// Angle θL of the load, rad. @param theta rotor angle θ, rad.
+/// Angle θL of the load, rad.
+/// @param theta rotor angle θ, rad.
 inline double load_theta(const Load& load, double theta) {
   return load.error.empty() ? theta - load.twist : theta + value(load.error, theta) - load.twist;
 }
@@ -80,16 +82,17 @@ inline double transmission(const Load& load) {
   return load.error.empty() ? 1.0 : 1.0 + slope(load.error, load.rotor_theta);
 }
 
-/// The side of the coupling's gap on which the coupling is: 1 above, −1 below, 0 inside the gap. @param twist
-/// δ, rad. @param heading sign of the change of δ, which decides at an edge.
+/// The side of the coupling's gap on which the coupling is: 1 above, −1 below, 0 inside the gap.
+/// @param twist δ, rad.
+/// @param heading sign of the change of δ, which decides at an edge.
 inline int side_of_gap(const LoadParameters& load, double twist, double heading) {
   const double half = 0.5 * load.gap;
   if (twist > half || (twist == half && heading > 0.0)) return 1;
   return twist < -half || (twist == -half && heading < 0.0) ? -1 : 0;
 }
 
-/// The torque with which the coupling acts on the rotor (to be subtracted), (1 + ε′)·Ts, N m. @param
-/// rotor_omega velocity ω of the rotor, rad/s.
+/// The torque with which the coupling acts on the rotor (to be subtracted), (1 + ε′)·Ts, N m.
+/// @param rotor_omega velocity ω of the rotor, rad/s.
 inline double coupling_torque(const Load& load, double rotor_omega) {
   const LoadParameters& p = load.parameters;
   const double ratio = transmission(load);
@@ -100,7 +103,8 @@ inline double coupling_torque(const Load& load, double rotor_omega) {
 }
 
 /// Largest coupling torque of an oscillation, divided by its largest relative velocity: √(kL·J·JL/(J + JL)) +
-/// dL, N m s/rad. @param inertia J of the rotor, kg m².
+/// dL, N m s/rad.
+/// @param inertia J of the rotor, kg m².
 inline double torque_by_velocity(const LoadParameters& load, double inertia) {
   const double reduced = inertia * load.inertia / (inertia + load.inertia);
   return std::sqrt(load.stiffness * reduced) + load.damping;
@@ -108,8 +112,9 @@ inline double torque_by_velocity(const LoadParameters& load, double inertia) {
 
 /// Whether the coupling torque of any oscillation between load and rotor stays below `torque` (N m). False
 /// for a load that is not plain (is_plain()), because its oscillation has no known bound.
-/// @param rotor_omega velocity ω of the rotor, rad/s. @param inertia J of the rotor, kg m². @param steady
-/// coupling torque of the motion without the oscillation, N m.
+/// @param rotor_omega velocity ω of the rotor, rad/s.
+/// @param inertia J of the rotor, kg m².
+/// @param steady coupling torque of the motion without the oscillation, N m.
 inline bool is_quiet(const Load& load, double rotor_omega, double inertia, double torque, double steady) {
   return is_plain(load) &&
          std::abs(load.parameters.stiffness * load.twist - steady) +
@@ -117,8 +122,8 @@ inline bool is_quiet(const Load& load, double rotor_omega, double inertia, doubl
              torque;
 }
 
-/// Sets a plain load to move with the rotor from now on, without an oscillation. @param rotor_omega velocity
-/// ω of the rotor, rad/s.
+/// Sets a plain load to move with the rotor from now on, without an oscillation.
+/// @param rotor_omega velocity ω of the rotor, rad/s.
 inline void follow_rotor(Load& load, double rotor_omega) {
   load.twist = 0.0;
   load.omega = rotor_omega;
@@ -130,19 +135,20 @@ struct LoadSeries {
   numerics::Series omega;         ///< Velocity ωL of the load, rad/s
   numerics::Series torque;        ///< Coupling torque Ts, N m
   numerics::Series transmission;  ///< Transmission 1 + ε′(θ) of the coupling; unused without a kinematic
-                                  ///< error
+                                  /// < error
   int side{0};                    ///< Side of the coupling's gap: 1 above, −1 below, 0 inside the gap
   bool plain{true};
   std::optional<RippleSeries> error{};
   std::optional<DisturbanceSeries> disturbance{};
 };
 
-/// Sets the coefficients of order 0 of a load's series from its state. @param heading sign of the change of
-/// δ.
+/// Sets the coefficients of order 0 of a load's series from its state.
+/// @param heading sign of the change of δ.
 void start_series(LoadSeries& series, const Load& load, double heading);
 
 /// Computes the coefficients k + 1 of a load's series, given the coefficients of the rotor's velocity up to
-/// k. @returns coefficient k of the torque with which the coupling acts on the rotor, N m.
+/// k.
+/// @returns coefficient k of the torque with which the coupling acts on the rotor, N m.
 double expand(LoadSeries& series, const Load& load, const numerics::Series& rotor_omega, std::size_t k);
 
 /// Direction (−1 or 1) in which the twist δ leaves the edge of the coupling's gap; 0 if δ does not start

@@ -67,8 +67,9 @@ concept SmoothMotion = requires(Motion motion, const Motion now, typename Motion
 };
 
 /// Computes the Taylor series of a motion from its present state.
-/// @param inertia J, kg m². @param torque torque on the rotor. @param load_series receives the series of the
-/// load of `torque`; unused without a load.
+/// @param inertia J, kg m².
+/// @param torque torque on the rotor.
+/// @param load_series receives the series of the load of `torque`; unused without a load.
 template <SmoothMotion Motion>
 typename Motion::Expansion motion_series(const Motion& motion, double inertia, const TorqueCourse& torque,
                                          LoadSeries& load_series) {
@@ -122,8 +123,9 @@ double step_within(const numerics::Series& position, const numerics::Series& vel
 
 /// Advances the motion, and the load of `torque`, along their Taylor series: to the end of the longest
 /// accurate step, to the motion's first event or to an edge of the coupling's gap, whichever comes first.
-/// @param tolerance truncation error of the position allowed, rad. @param duration longest step, s. @returns
-/// the time used and the event.
+/// @param tolerance truncation error of the position allowed, rad.
+/// @param duration longest step, s.
+/// @returns the time used and the event.
 template <SmoothMotion Motion>
 NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& series,
                                              const LoadSeries& load_series, const TorqueCourse& torque,
@@ -160,7 +162,9 @@ NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& s
 }
 
 /// Computes the Taylor series of the motion from its present state, and advances the motion along them by
-/// step_along(). @param inertia J, kg m². @param tolerance truncation error of the position allowed, rad.
+/// step_along().
+/// @param inertia J, kg m².
+/// @param tolerance truncation error of the position allowed, rad.
 /// @param duration longest step, s.
 template <SmoothMotion Motion>
 NextEvent<typename Motion::Event> taylor_step(Motion& motion, double inertia, const TorqueCourse& torque,

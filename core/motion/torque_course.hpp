@@ -52,8 +52,8 @@ inline bool is_coupled(const TorqueCourse& course) {
   return course.load != nullptr || course.disturbance != nullptr;
 }
 
-/// The torque on the rotor at this instant, including coupling and disturbance, N m. @param omega velocity ω
-/// of the rotor, rad/s.
+/// The torque on the rotor at this instant, including coupling and disturbance, N m.
+/// @param omega velocity ω of the rotor, rad/s.
 double torque_on_rotor(const TorqueCourse& course, double omega);
 
 /// Direction in which the torque on the rotor changes: the sign of the result. Without a load, or with a
@@ -69,13 +69,15 @@ double heading_under(const TorqueCourse& course, double omega, double friction);
 
 /// Whether any oscillation between load and rotor has a coupling torque below `torque` (N m); true without a
 /// load.
-/// @param omega ω of the rotor, rad/s. @param inertia J, kg m². @param acceleration acceleration of the slow
-/// motion without the oscillation, rad/s². Up to a tenth of the coupling torque that it needs may be missing.
+/// @param omega ω of the rotor, rad/s.
+/// @param inertia J, kg m².
+/// @param acceleration acceleration of the slow motion without the oscillation, rad/s². Up to a tenth of the
+/// coupling torque that it needs may be missing.
 bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque,
                    double acceleration = 0.0);
 
-/// Sets the load, if any, to move with the rotor from now on, without an oscillation. @param omega velocity ω
-/// of the rotor, rad/s.
+/// Sets the load, if any, to move with the rotor from now on, without an oscillation.
+/// @param omega velocity ω of the rotor, rad/s.
 void let_load_follow(const TorqueCourse& course, double omega);
 
 /// The course of the torque as seen from the time t (s) on: t becomes the new time 0.

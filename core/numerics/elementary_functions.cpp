@@ -25,7 +25,8 @@ struct ScaledExponential {
   double excess;
 };
 
-/// Computes exp(x + x_error). @param x_error correction to x, far smaller than x.
+/// Computes exp(x + x_error).
+/// @param x_error correction to x, far smaller than x.
 ScaledExponential scaled_exponential(double x, double x_error = 0.0) noexcept {
   constexpr double to_whole = 0x1.8p52;  // a number so large that its last bit is 1
   const double shifted = x * steps_per_unit + to_whole;

@@ -58,7 +58,8 @@ struct Bracket {
 ///     until narrow(bracket), or its middle equals one of its ends:
 ///       the middle replaces the end at which `condition` has the same value
 ///
-/// The condition is not evaluated at the given ends. @returns the final bracket.
+/// The condition is not evaluated at the given ends.
+/// @returns the final bracket.
 template <class Condition, class Narrow, class Mean = double(double, double)>
 Bracket bisect(Bracket bracket, const Condition& condition, Narrow narrow,
                const Mean& mean = arithmetic_mean) {

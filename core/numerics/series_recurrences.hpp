@@ -27,8 +27,9 @@ inline constexpr struct Whole {
   }
 } whole;
 
-/// Coefficient k ≥ 1 of the power series of exp(a), by the recurrence of e′ = a′·e. @param derivative
-/// coefficients of a′ up to k − 1. @param e coefficients of exp(a) up to k − 1.
+/// Coefficient k ≥ 1 of the power series of exp(a), by the recurrence of e′ = a′·e.
+/// @param derivative coefficients of a′ up to k − 1.
+/// @param e coefficients of exp(a) up to k − 1.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number exponential_coefficient(const Number* derivative, const Number* e,
                                                        std::size_t k) {
@@ -45,8 +46,10 @@ ZEROCOUNT_ALWAYS_INLINE Number product_coefficient(const Number* a, const Number
   return sum;
 }
 
-/// Coefficient k of the quotient q = a/b of two power series, b[0] ≠ 0, by the recurrence of q·b = a. @param
-/// a_k coefficient k of a. @param b coefficients up to k. @param q coefficients up to k − 1.
+/// Coefficient k of the quotient q = a/b of two power series, b[0] ≠ 0, by the recurrence of q·b = a.
+/// @param a_k coefficient k of a.
+/// @param b coefficients up to k.
+/// @param q coefficients up to k − 1.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number quotient_coefficient(const Number& a_k, const Number* b, const Number* q,
                                                     std::size_t k) {
@@ -65,8 +68,8 @@ ZEROCOUNT_ALWAYS_INLINE Number square_coefficient(const Number* a, std::size_t k
 }
 
 /// Coefficient k ≥ 1 of the power p = aⁿ of a power series, a[0] ≠ 0, any real n, by the recurrence of a·p′ =
-/// n·a′·p (Knuth, The Art of Computer Programming, vol. 2, section 4.7), given a[0…k] and p[0…k−1]. @param
-/// per_start 1/a[0]
+/// n·a′·p (Knuth, The Art of Computer Programming, vol. 2, section 4.7), given a[0…k] and p[0…k−1].
+/// @param per_start 1/a[0]
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number power_coefficient(const Number* a, const Number* p, const Number& n,
                                                  const Number& per_start, std::size_t k) {

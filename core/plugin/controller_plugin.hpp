@@ -54,8 +54,9 @@ inline constexpr std::size_t max_plugin_parameters = 128;
 /// Largest memory that a plugin may request for its state in one trial, bytes
 inline constexpr std::size_t max_plugin_state = std::size_t{1} << 20;
 
-/// Checks the description that the library's function zerocount_controller_entry() returned. @param sha256
-/// SHA-256 checksum of the library file. @returns the plugin, or the reason why it cannot be used.
+/// Checks the description that the library's function zerocount_controller_entry() returned.
+/// @param sha256 SHA-256 checksum of the library file.
+/// @returns the plugin, or the reason why it cannot be used.
 std::variant<ControllerPlugin, PluginFault> checked_plugin(const zerocount_controller* entry,
                                                            std::string sha256);
 

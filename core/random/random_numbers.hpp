@@ -19,7 +19,7 @@ using RandomKey = std::array<std::uint32_t, 2>;
 /// Purpose for which a random number is drawn: the third word of the generator's counter.
 enum class Draw : std::uint32_t {
   trial = 0,        ///< Value of a parameter for a trial or machine; with the Latin hypercube, the position
-                    ///< inside its stratum
+                    /// < inside its stratum
   sobol_shift = 1,  ///< Random digital shift that randomises a dimension of a Sobol sequence; the index is 0
   profile_cosine = 2,  ///< Cosine coefficient of a profile; the index is the harmonic + 2³²·machine
   profile_sine = 3,    ///< Sine coefficient of a profile; the index is the harmonic + 2³²·machine
@@ -33,8 +33,9 @@ struct RandomStream {
   std::uint32_t stream{0};
 };
 
-/// 64 random bits for a key, stream, index and draw (see RandomKey). @param index usually the index of the
-/// trial. @param draw a value of Draw.
+/// 64 random bits for a key, stream, index and draw (see RandomKey).
+/// @param index usually the index of the trial.
+/// @param draw a value of Draw.
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, std::uint32_t draw);
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, Draw draw);
 
@@ -43,7 +44,8 @@ std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, Draw 
 ///
 ///   counter words {trial mod 2³², trial div 2³² + 2²⁴·(k div 2³²), k mod 2³², stream}.
 ///
-/// @param trial less than 2⁵⁶. @param k less than 2⁴⁰. No two numbers of a key then share a counter.
+/// @param trial less than 2⁵⁶.
+/// @param k less than 2⁴⁰. No two numbers of a key then share a counter.
 std::uint64_t random_bits_at(const RandomStream& stream, std::uint64_t trial, std::uint64_t k);
 
 /// The bits as a uniform number in the open interval (0, 1): (⌊w/2¹²⌋ + ½)·2⁻⁵². Exact, so never 0 or 1, and
@@ -61,7 +63,8 @@ double standard_normal_noise(std::uint64_t bits);
 
 /// A binomial number: how many of `n` independent events of probability `probability` occur. By inversion:
 /// the smallest j with F(j) ≥ u, u = open_uniform(bits), F(j) = Σ_{i≤j} C(n, i)·pⁱ·(1 − p)ⁿ⁻ⁱ.
-/// @param n not negative. @param probability p, in [0, 1].
+/// @param n not negative.
+/// @param probability p, in [0, 1].
 std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t bits);
 
 /// Source of successive random numbers from one stream, for searches that need no counter of their own.

@@ -12,8 +12,8 @@
 
 namespace zerocount::text {
 
-/// A number with its noun: "1 trial", "2 trials", "0 trials". @param noun noun in the singular; its plural
-/// must end in s.
+/// A number with its noun: "1 trial", "2 trials", "0 trials".
+/// @param noun noun in the singular; its plural must end in s.
 std::string counted(std::integral auto count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

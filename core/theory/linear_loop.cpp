@@ -10,7 +10,7 @@ namespace {
 
 using Complex = std::complex<double>;
 using Row = Eigen::RowVectorXd;  ///< Row vector that gives a signal as a linear combination of the loop's
-                                 ///< states
+                                 /// < states
 
 std::vector<PathGroup> groups_of(const loop::LinearBlock& stage) {
   std::vector<PathGroup> groups;
@@ -78,8 +78,8 @@ double coefficient(const std::vector<double>& of, Eigen::Index k) {
 }
 
 /// Enters the states of a path group into the map of the loop. They begin at index `state` of the map: y = Σ
-/// b₀·x + s₁, sᵢ ← Σ bᵢ·x − aᵢ·y + sᵢ₊₁, the sums over the inputs. @returns the output y of the group as a
-/// linear combination of the loop's states.
+/// b₀·x + s₁, sᵢ ← Σ bᵢ·x − aᵢ·y + sᵢ₊₁, the sums over the inputs.
+/// @returns the output y of the group as a linear combination of the loop's states.
 template <class Input>
 Row realise(const PathGroup& group, const Input& input, Eigen::Index state, Eigen::MatrixXd& map) {
   const Eigen::Index order = group.order();
@@ -232,7 +232,8 @@ Complex OpenLoop::at(Complex z) const {
 
 /// Two responses of the plant at the point z. First: count per torque decided, without the delay of whole
 /// samples, the first element of (z·I − A)⁻¹·(b + b_before/z). Second: count that the velocity loop reads,
-/// per count of the position loop. @param inverse 1/z.
+/// per count of the position loop.
+/// @param inverse 1/z.
 std::pair<Complex, Complex> OpenLoop::plant_at(Complex z, Complex inverse) const {
   const Eigen::Index states = plant_.A.rows();
   const auto m = [&](Eigen::Index i, Eigen::Index j) { return (i == j ? z : 0.0) - plant_.A(i, j); };

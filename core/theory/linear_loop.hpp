@@ -22,7 +22,7 @@ namespace zerocount::theory {
 struct HeldPlant {
   Eigen::MatrixXd A;  ///< State matrix over one sample; states in units of counts and N m
   Eigen::VectorXd b;  ///< Input vector for the torque v[k − delay], counts/(N m); dimensionless in the row of
-                      ///< the amplifier's torque
+                      /// < the amplifier's torque
   Eigen::VectorXd b_before;  ///< Input vector for the torque v[k − delay − 1]; 0 for a delay of whole samples
   int delay{0};              ///< Number of whole samples between deciding a torque and applying it
   /// Counts of the encoder on the other mass per count of the fine one, if the velocity loop reads that
@@ -42,7 +42,8 @@ struct FrozenFriction {
 /// Exact discretisation of J·θ¨ + damping·θ˙ + stiffness·θ = u − Ts, with the load of `plant`, and the
 /// drive's input held over each sample. The coupling is in contact and without an error.
 /// @param plant inertia of the rotor, and its load.
-/// @param count_angle Δx, rad. @param sample_time T, s.
+/// @param count_angle Δx, rad.
+/// @param sample_time T, s.
 /// @param delay samples between deciding a torque and applying it, whole or not.
 HeldPlant hold_plant(const FrozenFriction& friction, const motion::PlantParameters& plant, double count_angle,
                      double sample_time, const LinearDrive& drive, double delay = 0.0);
@@ -66,8 +67,8 @@ class ControllerResponse {
  public:
   explicit ControllerResponse(const loop::LinearChain& controller);
 
-  /// The frequency response at a point z of the z plane. @param error_gain gain on the error before the
-  /// chain, such as the describing function of a dead zone.
+  /// The frequency response at a point z of the z plane.
+  /// @param error_gain gain on the error before the chain, such as the describing function of a dead zone.
   /// @param velocity_per_count count that the velocity loop reads per count of the position loop.
   std::complex<double> at(std::complex<double> z, double error_gain = 1.0,
                           std::complex<double> velocity_per_count = 1.0) const;

@@ -68,8 +68,8 @@ void remove_at(const Eigen::VectorXcd& roots, std::vector<double>& angles) {
   }
 }
 
-/// The angle between low and high at which f changes its sign, by bisection. @param at_low value of f at
-/// `low`.
+/// The angle between low and high at which f changes its sign, by bisection.
+/// @param at_low value of f at `low`.
 double sign_change(const Sought& f, double low, double high, double at_low) {
   const auto is_before = [&](double angle) { return (f(angle) > 0.0) == (at_low > 0.0); };
   const auto narrow = [](const numerics::Bracket& angle) {

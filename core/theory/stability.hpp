@@ -45,7 +45,8 @@ double sampled_critical_integral_gain(
     loop::ControllerParameters controller, double scale);
 
 /// Static stiffness of the contact's spring and the control law without its integral, in the unit of
-/// integral_gain(): N m/count or N m/rad. @param stiffness stiffness of the spring, N m/rad.
+/// integral_gain(): N m/count or N m/rad.
+/// @param stiffness stiffness of the spring, N m/rad.
 double static_stiffness(double stiffness, const loop::EncoderParameters& encoder,
                         const loop::ControllerParameters& controller);
 
@@ -69,9 +70,9 @@ double critical_integral_gain(double stiffness, const motion::PlantParameters& p
 /// The paper's two stability criteria for one contact, as bounds on the digital integral gain.
 struct IntegralGainBounds {
   double stable_below{0.0};    ///< Bound of criterion (6), with k = k1: the loop is stable for all histories
-                               ///< if the gain is below it, N m/count
+                               /// < if the gain is below it, N m/count
   double unstable_above{0.0};  ///< Bound of criterion (7), with k = k1 + k2: the loop is unstable if the gain
-                               ///< is above it, N m/count
+                               /// < is above it, N m/count
 };
 
 /// The bounds of the paper's criteria (6) and (7) on the digital integral gain, for the friction parameters
@@ -90,8 +91,9 @@ double lowest_k1(const friction::FrictionAlongRotor& friction);
 double dac_resolution_bound(double k1, const loop::EncoderParameters& encoder,
                             loop::EncoderChoice feedback = loop::EncoderChoice::fine);
 
-/// Natural frequency √(stiffness/J)/2π of the rotor on a spring, Hz. @param stiffness N m/rad; with k1 + k2
-/// the result is the highest natural frequency of the pre-sliding motion.
+/// Natural frequency √(stiffness/J)/2π of the rotor on a spring, Hz.
+/// @param stiffness N m/rad; with k1 + k2 the result is the highest natural frequency of the pre-sliding
+/// motion.
 double natural_frequency(double stiffness, const motion::PlantParameters& plant);
 
 /// Lowest advisable sample rate (Hz): ten times the highest natural frequency, as on the paper's machine

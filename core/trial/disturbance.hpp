@@ -52,11 +52,12 @@ struct DisturbanceParameters {
 /// S is 0 outside the given points.
 double mean_square(const SpectrumParameters& spectrum, double low, double high);
 
-/// The ripples along the angle of a trial, without those of amplitude 0. @param position initial position p,
-/// rad.
+/// The ripples along the angle of a trial, without those of amplitude 0.
+/// @param position initial position p, rad.
 std::vector<motion::Ripple> ripples_of(const std::vector<RippleParameters>& ripples, double position);
 
-/// The disturbance of a trial, without the terms of amplitude 0. @param position initial position p, rad.
+/// The disturbance of a trial, without the terms of amplitude 0.
+/// @param position initial position p, rad.
 /// @param lines number of random lines that other disturbances of the trial have drawn before, so that each
 /// gets random numbers of its own.
 motion::Disturbance disturbance_of(const DisturbanceParameters& parameters, double position,

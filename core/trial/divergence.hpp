@@ -24,8 +24,8 @@ inline bool diverged(const VerdictParameters& verdict, std::int64_t first_error,
 }
 
 /// The outcome of a move that follows a diverged move. It was not run, because its initial state is unknown.
-/// It counts as oscillating and stopped; its real measures are NaN, its whole ones 0. @param number number of
-/// the move in its trial.
+/// It counts as oscillating and stopped; its real measures are NaN, its whole ones 0.
+/// @param number number of the move in its trial.
 inline MoveOutcome move_not_run(std::size_t number = 0) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   MoveOutcome move;

@@ -29,7 +29,8 @@ class Jerks {
     return false;
   }
 
-  /// Ends the present jerk, if one lasts, before sample k. @returns whether there was one.
+  /// Ends the present jerk, if one lasts, before sample k.
+  /// @returns whether there was one.
   bool end(std::int64_t k) {
     if (!in_jerk_) return false;
     in_jerk_ = false;

@@ -29,8 +29,9 @@ class LastHalf {
   /// count allocates all the memory that the half can need.
   void start(std::int64_t samples);
 
-  /// Takes the count at sample k ≥ h. @param before count at sample k − 1, or `count` itself at sample h.
-  /// Samples without a change of the count may be left out, as long as finish() is called.
+  /// Takes the count at sample k ≥ h.
+  /// @param before count at sample k − 1, or `count` itself at sample h. Samples without a change of the
+  /// count may be left out, as long as finish() is called.
   void add(std::int64_t k, std::int64_t before, std::int64_t count) {
     if (!begun_) begin(before);
     if (count > before) {
@@ -41,7 +42,8 @@ class LastHalf {
     }
   }
 
-  /// Ends the last half of the move. @param count count at its last sample.
+  /// Ends the last half of the move.
+  /// @param count count at its last sample.
   void finish(std::int64_t count) {
     if (!begun_) begin(count);
   }
@@ -54,9 +56,10 @@ class LastHalf {
   bool only_approaches(std::int64_t target) const;
 
   double amplitude() const;                 ///< Amplitude of the count's oscillation, (c_max − c_min)/2,
-                                            ///< counts
+                                            /// < counts
   double period(double sample_time) const;  ///< Mean period of the count's oscillation, s; NaN for fewer than
-                                            ///< two upward crossings. @param sample_time T, s.
+                                            /// < two upward crossings.
+                                            /// @param sample_time T, s.
 
  private:
   struct Rise {
@@ -73,7 +76,7 @@ class LastHalf {
   std::int64_t min_{0};
   std::int64_t max_{0};
   std::vector<Rise> rises_;  ///< The rises of the count so far; used as a ring buffer once there are
-                             ///< max_rises
+                             /// < max_rises
   std::size_t oldest_{0};
   std::size_t reserve_{0};
 };

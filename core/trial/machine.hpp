@@ -46,7 +46,7 @@ loop::StartOfMotion start_of_motion(const TrialParameters& parameters);
 /// Initial state of the plant at t = 0, from the trial's initial conditions.
 motion::PlantStart plant_start(const TrialParameters& parameters);
 
-/// What belongs to the second mass besides its coupling: the torques on it, the kinematic error, and the
+/// The values of the second mass besides its coupling: the torques on it, the kinematic error, and the
 /// initial twist.
 motion::LoadSide load_side(const TrialParameters& parameters);
 

@@ -22,15 +22,17 @@ struct MotionSample {
 /// length of the moves.
 class MotionMeasures {
  public:
-  /// Prepares the measures of a trial. @param resolution Δx of the fine encoder, rad.
+  /// Prepares the measures of a trial.
+  /// @param resolution Δx of the fine encoder, rad.
   MotionMeasures(const TrialParameters& parameters, double resolution);
 
-  /// Starts the next move. @param target target of the move, counts. @param samples number of samples of the
-  /// move.
+  /// Starts the next move.
+  /// @param target target of the move, counts.
+  /// @param samples number of samples of the move.
   void start_move(std::int64_t target, std::int64_t samples);
 
-  /// Takes the next sample of the move. @param reference reference of the move, from which the following
-  /// error is measured.
+  /// Takes the next sample of the move.
+  /// @param reference reference of the move, from which the following error is measured.
   void add(const MotionSample& sample, const loop::Reference& reference);
 
   /// Adds the measures of the true motion to the outcome of the move, whose other measures are final. A move
@@ -46,7 +48,7 @@ class MotionMeasures {
     double highest{-std::numeric_limits<double>::infinity()};
     double squared_torques{0.0};  ///< Sum of the squares of the torque decided, (N m)²
     double squared_changes{0.0};  ///< Sum of the squared changes of the torque decided from sample to sample,
-                                  ///< (N m)²
+                                  /// < (N m)²
     double last_torque{0.0};
   };
   struct Following {

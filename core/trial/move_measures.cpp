@@ -94,8 +94,8 @@ void judge_end(const MoveTiming& timing, const RunningMeasures<double>& m, const
   }
 }
 
-/// The outcome for one error band of a move whose samples were all run. @param samples number of samples of
-/// the move.
+/// The outcome for one error band of a move whose samples were all run.
+/// @param samples number of samples of the move.
 BandOutcome outcome_of_band(const MoveTiming& timing, double samples, BandMeasures<double> band) {
   // One more sample, outside, ends the last run inside the band.
   const double settled = band.last_outside + 1.0;
@@ -166,8 +166,8 @@ bool MoveMeasures::add(const MoveSample& sample) {
   return jerk_ended;
 }
 
-/// Updates the measures that depend on the error of this sample. @returns whether a jerk (excursion of the
-/// error after arrival) ended before it.
+/// Updates the measures that depend on the error of this sample.
+/// @returns whether a jerk (excursion of the error after arrival) ended before it.
 bool MoveMeasures::judge(const MoveSample& sample) {
   const std::int64_t error = sample.target - sample.count;
   const std::int64_t k = whole(running_.samples);

@@ -17,7 +17,7 @@ namespace zerocount::trial {
 struct NamedMeasure {
   std::string_view name;
   bool of_motion{false};  ///< Whether the measure exists only with `verdict.motion`, which requests measures
-                          ///< of the true motion
+                          /// < of the true motion
   /// Whether the measure exists only if the position error is measured (VerdictParameters::position_error).
   bool of_position{false};
 };
@@ -54,8 +54,9 @@ MoveTiming move_timing(const TrialParameters& parameters, std::size_t move);
 
 /// True error: distance from the rotor at `theta` (rad) to the middle of the target's count, counts (see
 /// MoveOutcome).
-/// @param target counts. @param resolution Δx of the fine encoder, rad. @param phase phase of the fine
-/// encoder, counts.
+/// @param target counts.
+/// @param resolution Δx of the fine encoder, rad.
+/// @param phase phase of the fine encoder, counts.
 inline double true_error(std::int64_t target, double theta, double resolution, double phase) {
   return static_cast<double>(target) - (theta / resolution + phase - 0.5);
 }
@@ -104,9 +105,10 @@ class MoveMeasures {
   /// Marks the move as diverged at the last sample, so that it ends there.
   void stop() { stopped_ = true; }
 
-  /// Computes the outcome of the move. Call once, after the last sample. @param broke_away whether the
-  /// friction contact slid during the move. @param reversal_depth largest number of reversal points. @param
-  /// finite whether the motion could be followed to the end.
+  /// Computes the outcome of the move. Call once, after the last sample.
+  /// @param broke_away whether the friction contact slid during the move.
+  /// @param reversal_depth largest number of reversal points.
+  /// @param finite whether the motion could be followed to the end.
   /// @returns whether a jerk was cut off by the end; then last_jerk() returns it.
   bool finish(bool broke_away, std::int64_t reversal_depth, bool finite);
 

@@ -19,16 +19,20 @@ namespace zerocount::trial {
 /// the encoder.
 class PositionError {
  public:
-  /// Prepares the measures of a trial. @param resolution Δx of the fine encoder, rad.
+  /// Prepares the measures of a trial.
+  /// @param resolution Δx of the fine encoder, rad.
   PositionError(const TrialParameters& parameters, double resolution);
 
-  /// Starts to measure the next move. @param number number of the move from 0; moves come in order.
+  /// Starts to measure the next move.
+  /// @param number number of the move from 0; moves come in order.
   void start_move(std::size_t number);
 
-  /// Takes sample k of the move. @param theta angle θ of the measured mass, rad.
+  /// Takes sample k of the move.
+  /// @param theta angle θ of the measured mass, rad.
   void add(std::int64_t k, double theta, const loop::Reference& reference);
   /// Takes sample k of a move whose target does not move. At the samples that were left out since the last
-  /// call, the angle must have been within quiet_range(). @param theta angle θ of the measured mass, rad.
+  /// call, the angle must have been within quiet_range().
+  /// @param theta angle θ of the measured mass, rad.
   void add_at_target(std::int64_t k, double theta);
 
   /// A range of angles of the measured mass, rad.
@@ -51,8 +55,9 @@ class PositionError {
   /// Target of move `number` before it is rounded to counts, rad, measured from the position at the start of
   /// the trial.
   double exact_target(std::size_t number) const;
-  /// Takes sample k. @param theta angle of the measured mass, rad. @param followed angle that the mass should
-  /// have, rad.
+  /// Takes sample k.
+  /// @param theta angle of the measured mass, rad.
+  /// @param followed angle that the mass should have, rad.
   void add_error(std::int64_t k, double theta, double followed);
 
   const TrialParameters& p_;

@@ -15,7 +15,7 @@ struct ArrivalMeasures {
   Number zeros_in_a_row;  ///< Successive samples with zero error up to the last sample
   Number arrived;         ///< 1 once the error has been 0 for the whole dwell time, otherwise 0
   Number arrival;  ///< Number of the sample from which the error first stayed 0 for the dwell time; valid
-                   ///< once `arrived` is 1
+                   /// < once `arrived` is 1
 };
 
 /// Measures of a move, accumulated up to the present sample.
@@ -66,9 +66,9 @@ template <class Number>
 struct BandMeasures {
   Number last_outside;  ///< Number of the last sample with |e| > b; −1 if there is none
   Number entry;  ///< Number of the sample from which the error first stayed in the band for the dwell time;
-                 ///< −1 if no such stay has ended
+                 /// < −1 if no such stay has ended
   Number exits;  ///< Number of times that the error left the band after it had first stayed in it for the
-                 ///< dwell time
+                 /// < dwell time
 };
 
 /// Lengths, in samples, that the running measures of a move need.
@@ -100,8 +100,10 @@ ZEROCOUNT_ALWAYS_INLINE void measure_error(RunningMeasures<Number>& m, const Mea
 }
 
 /// Updates the measures of an error band by sample k of the move. Samples inside the band may be left out.
-/// @param limit half width b of the band, counts. @param dwell D, samples. @param size |e| at sample k,
-/// counts. @returns a mask: true if the sample lies outside the band.
+/// @param limit half width b of the band, counts.
+/// @param dwell D, samples.
+/// @param size |e| at sample k, counts.
+/// @returns a mask: true if the sample lies outside the band.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto measure_band(BandMeasures<Number>& band, const Number& limit,
                                           const Number& dwell, const Number& k, const Number& size) {

@@ -27,7 +27,8 @@ namespace zerocount::trial {
 ///   finish(m):      travel time, changes of the phase, measures of the position error and the true motion
 class SampledLoop {
  public:
-  /// Creates the loop of a trial. @param measurement the encoders that give the counts.
+  /// Creates the loop of a trial.
+  /// @param measurement the encoders that give the counts.
   SampledLoop(const TrialParameters& parameters, const loop::Measurement& measurement);
 
   /// Starts the next move, with its reference.
@@ -46,10 +47,10 @@ class SampledLoop {
     double wanted;
   };
   /// Runs the controller at a sample and decides the converter's code.
-  /// @param k number of the sample, counted from the start of the trial. @param i number of the sample,
-  /// counted from the start of the move.
-  /// @param theta angle that the encoders have read, rad. @param other angle of the other mass, rad, if there
-  /// is one.
+  /// @param k number of the sample, counted from the start of the trial.
+  /// @param i number of the sample, counted from the start of the move.
+  /// @param theta angle that the encoders have read, rad.
+  /// @param other angle of the other mass, rad, if there is one.
   Decision decide(std::int64_t k, std::int64_t i, const loop::EncoderReading& reading, double theta,
                   double other);
 
@@ -58,8 +59,9 @@ class SampledLoop {
   /// in its place.
   bool failed() const { return failed_; }
 
-  /// Ends the move. @param outcome outcome of the move, complete except for the measures of this loop (travel
-  /// time, phase changes, position error, true motion), which are added.
+  /// Ends the move.
+  /// @param outcome outcome of the move, complete except for the measures of this loop (travel time, phase
+  /// changes, position error, true motion), which are added.
   void finish(MoveOutcome& outcome);
 
  private:

@@ -32,7 +32,8 @@ struct TorqueRamp {
 };
 
 /// Creates the ramp between two torques (N m).
-/// @param rate absolute value of the rate, N m/s, positive. @param sample_rate Hz.
+/// @param rate absolute value of the rate, N m/s, positive.
+/// @param sample_rate Hz.
 TorqueRamp make_torque_ramp(double from, double to, double rate, double sample_rate);
 
 /// The torque (N m) at sample i = 0, 1, … of the ramp: from + i·per_sample, then `to`.

@@ -12,9 +12,10 @@
 namespace zerocount::trial {
 
 /// Whether the friction contact slid during a move.
-/// @param breakaway manner in which the law begins to slide. @param at_start, at_instants whether it slid at
-/// the start of the move, and at any of its sampling instants. @param broke_away whether it broke away at any
-/// time during the move.
+/// @param breakaway manner in which the law begins to slide.
+/// @param at_start, at_instants whether it slid at the start of the move, and at any of its sampling
+/// instants.
+/// @param broke_away whether it broke away at any time during the move.
 inline bool slid_in_move(friction::Breakaway breakaway, bool at_start, bool at_instants, bool broke_away) {
   switch (breakaway) {
     case friction::Breakaway::never:
@@ -28,10 +29,11 @@ inline bool slid_in_move(friction::Breakaway breakaway, bool at_start, bool at_i
 }
 
 /// Runs the samples of one move. A move that diverges is ended.
-/// @param first number of the move's first sample, counted from the start of the trial. @param target target
-/// of the move, counts. If the reference never comes to rest, the move is measured as if the reference stood
-/// at this target, with the same errors. @param decide decide(i, record) completes the record of sample i of
-/// the move: target, reference and torque.
+/// @param first number of the move's first sample, counted from the start of the trial.
+/// @param target target of the move, counts. If the reference never comes to rest, the move is measured as if
+/// the reference stood at this target, with the same errors.
+/// @param decide decide(i, record) completes the record of sample i of the move: target, reference and
+/// torque.
 template <class AnyPlant, class Decide>
 MoveOutcome run_move(Machine<AnyPlant>& machine, const MoveTiming& timing, const VerdictParameters& verdict,
                      std::int64_t move, std::int64_t first, std::int64_t target,

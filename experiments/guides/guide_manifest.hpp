@@ -65,8 +65,8 @@ double centre(const GuideNumber& number);
 std::optional<std::pair<double, double>> range_over_guides(parameters::AxisKind axis,
                                                            std::string_view parameter);
 
-/// What the user may state about the axis for which a new study's manifest is written; the defaults are those
-/// of the guide.
+/// Properties that the user may state about the axis for which a new study's manifest is written; the
+/// defaults are those of the guide.
 struct GuideAxis {
   GuideLoad load;
   double resolution{1e-8};  ///< encoder resolution, m per count; used for a linear axis

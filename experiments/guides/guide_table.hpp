@@ -12,7 +12,7 @@
 /// Starting values for an axis whose friction nobody has measured yet.
 namespace zerocount::guides {
 
-/// Where a number about the friction of a guide comes from. For a published number the value is published;
+/// Origin of a number about the friction of a guide. For a published number the value is published;
 /// its spread may be assumed, and its source then says so.
 enum class Origin : std::uint8_t {
   published,

@@ -27,14 +27,14 @@ inline constexpr std::array<std::string_view, 5> draw_level_labels{"study", "wor
 /// along the axis (`profile`).
 inline constexpr std::array<std::string_view, 2> draw_level_labels_of_profiles{"study", "machine"};
 
-/// Which kinds of groups the trials of a study are divided into.
+/// The kinds of groups into which the trials of a study are divided.
 struct TrialGroups {
   bool machines{false};
   bool worlds{false};
   bool ages{false};
 };
 
-/// What is drawn: a single value, a profile along the rotor, or a value without a distribution.
+/// Kind of a drawn quantity: a single value, a profile along the rotor, or a value without a distribution.
 enum class Drawn {
   value,
   profile,
@@ -84,7 +84,7 @@ struct ProfileRequest {
   std::string path;
 };
 
-/// What is collected while a manifest is read: the plan that is filled, the problems and the warnings.
+/// The objects that are filled while a manifest is read: the plan, the study, the problems and the warnings.
 struct Reading {
   yaml::Problems& problems;
   study::StudyPlan& plan;  ///< plan of the study that is filled, for example with the distributions

@@ -26,7 +26,8 @@ inline constexpr std::string_view order_of_keys = ", order of keys";
 /// @param root manifest with its overrides applied
 ManifestValues values_of(const yaml::YamlNode& root);
 /// The values of a manifest given as text.
-/// @param text text of the manifest @param source name of the text in messages
+/// @param text text of the manifest
+/// @param source name of the text in messages
 /// @throws Failure (bad_input) if the text is not YAML that this program accepts
 ManifestValues values_of(const std::string& text, const std::string& source,
                          const std::vector<std::string>& overrides);

@@ -47,8 +47,9 @@ Parameter zero_by_default(Parameter row) {
   return row;
 }
 
-// Rows of a list of ripples. @param names of amplitude, periods, pitch and phase. @param ideal of the
-// amplitude
+// Rows of a list of ripples.
+// @param names of amplitude, periods, pitch and phase.
+// @param ideal of the amplitude
 template <auto list>
 void add_ripple_rows(std::vector<Parameter>& rows, const std::array<parameter::Handle, 4>& names,
                      std::size_t first, std::string_view unit, std::string_view meaning, const Ideal& ideal) {
@@ -67,7 +68,8 @@ void add_ripple_rows(std::vector<Parameter>& rows, const std::array<parameter::H
       numerics::all_numbers())));
 }
 
-// Rows of a list of vibrations. @param names of amplitude, frequency and phase.
+// Rows of a list of vibrations.
+// @param names of amplitude, frequency and phase.
 template <auto list>
 void add_vibration_rows(std::vector<Parameter>& rows, const std::array<parameter::Handle, 3>& names,
                         std::size_t first, std::string_view meaning) {

@@ -207,7 +207,8 @@ inline Parameter only_on(AxisKind axis, std::string_view instead, Parameter row)
 
 /// Makes a row the row of a parameter whose value is a list. `Field` returns a pointer to the field of value
 /// `index` in TrialParameters.
-/// @param singular noun for one value @param plural noun for several values
+/// @param singular noun for one value
+/// @param plural noun for several values
 template <class Field>
 Parameter list_of(std::size_t max_values, std::string_view singular, std::string_view plural, Parameter row,
                   Field) {

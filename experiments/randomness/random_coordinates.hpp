@@ -49,7 +49,8 @@ void give(study::GivenDraws& draws, const RandomCoordinate& coordinate, double u
 
 /// The random numbers of a trial at these coordinates. The trial has the point's distribution if the
 /// coordinates are independent standard normal numbers.
-/// @param coordinates random_coordinates() of the study @param z [coordinate] standard normal number
+/// @param coordinates random_coordinates() of the study
+/// @param z [coordinate] standard normal number
 /// @param number draw that supplies all other random numbers, and index of the trial's rotor
 study::GivenDraws draws_at(const study::Study& study, std::span<const RandomCoordinate> coordinates,
                            std::span<const double> z, std::int64_t number);

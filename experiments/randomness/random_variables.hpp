@@ -46,7 +46,8 @@ RandomVariables random_variables(const study::Study& study, std::int64_t point);
 
 /// The random numbers that make a trial have the given values. The trial has the distribution of the point if
 /// the values have the joint distribution of the variables.
-/// @param x [variable] value @param number draw that supplies all other random numbers
+/// @param x [variable] value
+/// @param number draw that supplies all other random numbers
 /// @throws Failure (bad_input) for a value that its variable cannot have
 study::GivenDraws draws_with(const study::Study& study, const RandomVariables& variables,
                              std::span<const double> x, std::int64_t number);

@@ -76,7 +76,8 @@ double total_travel(Limits list) {
   return std::accumulate(travels.begin(), travels.end(), 0.0);
 }
 
-// @param what why a value of the list needs limits @param expected the distribution that it needs
+// @param what why a value of the list needs limits
+// @param expected the distribution that it needs
 ValueRule limits_of_the_list(const std::string& what, const std::string& expected) {
   return {{}, true, [what, expected](const Ranges&, Limits list) -> Faults {
             Faults faults;
@@ -176,7 +177,8 @@ ValueRule length_of_the_record(double length, std::string_view key) {
   });
 }
 
-// A hold that the study gives may cut the record of a reference. @param held without one, s
+// A hold that the study gives may cut the record of a reference.
+// @param held without one, s
 ValueRule end_of_the_reference(double last, double held, std::string_view key) {
   return warning(between(
       {parameter::command::hold, parameter::controller::sample_rate},

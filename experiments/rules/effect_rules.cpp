@@ -84,7 +84,8 @@ EffectRule only_with(const Switch& by, Keys keys, std::string_view off) {
 }
 
 /// The rule for keys that have no effect at all in this kind of study.
-/// @param what phrase that says why @param instead the key that would have the effect, for the message
+/// @param what phrase that says why
+/// @param instead the key that would have the effect, for the message
 EffectRule idle(Keys keys, std::string what, std::string_view instead) {
   return {.keys = std::move(keys),
           .has_effect = [](const Ranges&) { return false; },

@@ -7,7 +7,7 @@
 
 namespace zerocount::rules {
 
-/// Where the value of a parameter in a study comes from.
+/// Source of the value of a parameter in a study.
 enum class ValueSource {
   measured,  ///< the manifest gives it as a measured parameter (parameters::measured_parameters)
   sampled,   ///< drawn from a table of joint samples, such as the result of an identification

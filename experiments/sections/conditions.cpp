@@ -69,7 +69,8 @@ std::size_t option_of(const study::PlanAxis& axis, std::size_t assignment) {
 
 /// Reports the first override by a condition that changes a slot (a parameter in the plan) whose value is
 /// also given elsewhere.
-/// @param what phrase for the message, "is swept" @param other place of the other value
+/// @param what phrase for the message, "is swept"
+/// @param other place of the other value
 void refuse_override(const SweptAxis& conditions, std::size_t slot, std::string_view what,
                      const yaml::Place& other, keys::Reading& reading) {
   for (std::size_t i = 0; i < conditions.axis.assignments.size(); ++i) {

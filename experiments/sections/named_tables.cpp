@@ -155,8 +155,8 @@ Recorded positions(bool linear, const std::string& column) {
           "a straight line joins them"};
 }
 
-/// What is needed to read the tables that a manifest names (the reader of files), and what results from it:
-/// problems, warnings and overrides.
+/// The reader of the tables that a manifest names, and the objects that the reading fills: problems, warnings
+/// and overrides.
 struct TableReading {
   const SamplesReader& read;
   yaml::Problems& problems;
@@ -178,7 +178,8 @@ void add_spectra_below(const yaml::Field& disturbance, TableReading& reading) {
 
 /// Adds a warning about the gaps in the times of a record across which the value changes: rows of a
 /// standstill may be left out.
-/// @param first time of the first row in the record, s @param place_of the place of a row
+/// @param first time of the first row in the record, s
+/// @param place_of the place of a row
 template <class PlaceOf>
 void warn_of_gaps(const Pairs& rows, double first, const Recorded& recorded, std::string_view path,
                   const PlaceOf& place_of, TableReading& reading) {

@@ -19,7 +19,8 @@
 namespace zerocount::sections {
 
 /// Reads the table in the file that `field` names. Empty if the text is not a table; this is reported.
-/// @param text contents of the file @param expected phrase for the message
+/// @param text contents of the file
+/// @param expected phrase for the message
 std::optional<tables::TextTable> read_table(const yaml::Field& field, std::string text,
                                             std::string_view expected, yaml::Problems& problems);
 

@@ -87,7 +87,8 @@ SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>
 
 /// Reports overrides by conditions of parameters that come from the table `samples`, or that `tune` may
 /// change.
-/// @param root the manifest. @param sampled [sampled slot of the plan] place in the header of the table
+/// @param root the manifest.
+/// @param sampled [sampled slot of the plan] place in the header of the table
 void check_overrides(const yaml::Field& root, const SweptAxis& conditions,
                      const std::vector<yaml::Place>& sampled, keys::Reading& reading);
 

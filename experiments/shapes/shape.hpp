@@ -97,7 +97,8 @@ Shape real(const numerics::Interval& range, Shape key = {});
 
 /// Sets the maximum of the whole numbers in a list under one key of the map, for a maximum that depends on
 /// other keys.
-/// @param list name of the list's key @param highest maximum; below 0 counts as 0
+/// @param list name of the list's key
+/// @param highest maximum; below 0 counts as 0
 void limit_items(Shape& map, std::string_view list, std::int64_t highest);
 
 /// Checks the value in `field` against the shape, and reports every deviation. Values with a setter are

@@ -67,7 +67,7 @@ constexpr std::string_view of_closing_mass(const StudyFeatures& features) {
   return features.load_closes ? " of the load" : features.motor_closes ? " of the motor" : "";
 }
 
-/// What a study says about an effect of a real axis, such as encoder noise.
+/// The statement of a study about an effect of a real axis, such as encoder noise.
 enum class PremiseState {
   considered,   ///< the effect acts in some trials of the study
   stated_none,  ///< the effect is absent, and the manifest says so: it gives the parameter as 0

@@ -14,7 +14,7 @@
 
 namespace zerocount::study {
 
-/// Which values PointEdit::widen() has widened, and which not.
+/// Result of PointEdit::widen(): the values that it widened, and those that it did not.
 struct Widened {
   /// Dotted paths of the drawn parameters whose distributions were widened.
   std::vector<std::string> changed;

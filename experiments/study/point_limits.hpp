@@ -89,9 +89,11 @@ inline constexpr std::array<parameter::Handle, 5> two_encoders{
     parameter::controller::cascade::position, parameter::plant::load::encoder,
     parameter::controller::structure};
 
-/// Whether each mass has an encoder. @param of ranges of the parameters `two_encoders`
+/// Whether each mass has an encoder.
+/// @param of ranges of the parameters `two_encoders`
 bool has_two_encoders(const Ranges& of);
-/// Whether the load's encoder closes the (position) loop. @param of ranges of the parameters `two_encoders`
+/// Whether the load's encoder closes the (position) loop.
+/// @param of ranges of the parameters `two_encoders`
 bool closes_at_load(const Ranges& of);
 /// Whether some trial has two masses, and at some point the encoder of `mass` closes the loop.
 bool closes_somewhere(const StudyPlan& plan, motion::EncoderPlace mass);

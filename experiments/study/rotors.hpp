@@ -35,7 +35,8 @@ struct DrawnMean {
 /// cached up to `max_kept_bytes`, so that thousands of machines need no setup time. Thread-safe.
 class Rotors {
  public:
-  /// @param count number of rotors @param name dotted path of the parameter
+  /// @param count number of rotors
+  /// @param name dotted path of the parameter
   Rotors(distributions::ProfileDescription description, std::optional<DrawnMean> mean, std::uint64_t seed,
          std::string_view name, std::int64_t count);
 

@@ -28,7 +28,7 @@ struct StoppingRule {
   std::int64_t max_trials{1};  ///< number of trials per design point at which the study ends in any case
 };
 
-/// Which trials a results file keeps beside the statistics.
+/// The trials that a results file keeps beside the statistics.
 enum class Retention {
   trials,     ///< keeps all trials
   failures,   ///< keeps the trials that did not succeed in all their moves

@@ -18,8 +18,8 @@ struct Setting {
   bool operator==(const Setting&) const = default;
 };
 
-/// The numbers of conditions and ages of a study, and with them the index of each setting (a condition at an
-/// age): with C conditions, condition c at age a is setting c + C·a.
+/// The numbers of conditions and ages of a study, and with them the index of each setting: with C conditions,
+/// condition c at age a is setting c + C·a.
 struct SettingCounts {
   std::int64_t conditions{1};  ///< number of conditions C; 1 without conditions
   std::int64_t ages{1};        ///< number of ages of the study; 1 without ages
@@ -38,8 +38,10 @@ struct Settings {
   /// Whether the study has neither conditions nor ages.
   bool empty() const { return conditions.empty() && ages.at.empty(); }
   SettingCounts counts() const;
-  /// Number of settings (a condition at an age); 1 without conditions and ages.
+  /// Number of settings, each a condition at an age; 1 without conditions and ages.
   std::int64_t total() const { return counts().total(); }
+  /// Number of settings that the manifest lists: total(), but 0 without conditions and ages.
+  std::int64_t listed() const { return empty() ? 0 : total(); }
   Setting at(std::int64_t index) const { return counts().at(index); }
 };
 
@@ -47,24 +49,23 @@ struct Settings {
 /// ages.
 bool counts_conditions(const Settings& settings);
 
-/// The indices of the settings (a condition at an age) at an age, in order, one for each condition.
+/// The indices of the settings at this age, in order: one for each condition.
 std::vector<std::int64_t> settings_at_age(const SettingCounts& counts, std::int64_t age);
 
-/// Label of the setting (a condition at an age) with this index: "loaded", "100000 cycles" or "loaded, 100000
-/// cycles"; empty without conditions and ages.
+/// Label of a setting, a condition at an age: "loaded", "100000 cycles" or "loaded, 100000 cycles"; empty
+/// without conditions and ages.
 std::string label_of(const Settings& settings, std::int64_t index);
 
-/// [index of the setting] label of each setting (a condition at an age); empty without conditions and ages.
+/// [index of the setting] label_of() for each setting; empty without conditions and ages.
 std::vector<std::string> labels_of(const Settings& settings);
 
-/// Name of the condition in the setting (a condition at an age) with this index; empty without conditions.
+/// Name of the condition in the setting with this index; empty without conditions.
 std::string condition_of(const Settings& settings, std::int64_t index);
 
-/// Phrase that names a setting (a condition at an age) in a sentence: " under condition loaded", or with ages
-/// " at loaded, 100000 cycles"; empty without conditions and ages.
+/// Phrase that names a setting in a sentence: " under condition loaded", or with ages " at loaded, 100000
+/// cycles"; empty without conditions and ages.
 std::string setting_phrase(const Settings& settings, std::int64_t index);
-/// Phrase that names a setting (a condition at an age) with this label in a sentence: " under condition
-/// loaded".
+/// The phrase of setting_phrase() for the setting with this label.
 std::string setting_phrase(const Settings& settings, std::string_view label);
 
 /// The settings that the study would have at a single age: the same conditions, and no ages.

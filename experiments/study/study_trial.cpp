@@ -117,7 +117,8 @@ void begin_trial(const TrialDraws& draws, std::size_t point, TrialInProgress& t)
 }
 
 /// Makes the parameters of a trial with all numbers in the units of the manifest; see study_trial_as_given().
-/// @param point point of the plan (a design point in a setting) @param numbers memory for the numbers, [slot]
+/// @param point point of the plan (a design point in a setting)
+/// @param numbers memory for the numbers, [slot]
 void make_trial(const TrialDraws& draws, std::size_t point, StudyTrial& trial, std::vector<double>& numbers) {
   const StudyPlan& plan = draws.plan();
   TrialInProgress t{trial, numbers, plan};

@@ -97,7 +97,8 @@ class TextTable : public ColumnSource {
 
   /// Takes a text that has been read already. It may have a single column. A line of units below the header
   /// counts as a row.
-  /// @param name name of the text in messages @param expected phrase for the message about an empty text
+  /// @param name name of the text in messages
+  /// @param expected phrase for the message about an empty text
   /// @throws TableFault
   TextTable(std::string name, std::string text, std::string_view expected);
 

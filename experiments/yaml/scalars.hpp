@@ -32,7 +32,8 @@ std::optional<Field> find_field(const Field& map, std::string_view key);
 std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems,
                                 std::string_view or_else = {});
 
-/// A whole number, written without point or exponent, from `low` to `high`. @param or_else as for read_real
+/// A whole number, written without point or exponent, from `low` to `high`.
+/// @param or_else as for read_real
 std::optional<std::int64_t> read_whole(const Field& field, std::int64_t low, std::int64_t high,
                                        Problems& problems, std::string_view or_else = {});
 

@@ -32,7 +32,8 @@ std::optional<OtherFormat> other_format(std::string_view contents);
 
 /// Refuses contents that are not text.
 /// @throws Failure (bad_input) that names the format if the contents are not text.
-/// @param name name of the file in messages @param expected completes "expected", such as "a manifest"
+/// @param name name of the file in messages
+/// @param expected completes "expected", such as "a manifest"
 void require_text(std::string_view name, std::string_view contents, std::string_view expected);
 
 /// The text of a file or pipe, or of standard input for "-". Reads at most `max_size` + 1 bytes, so that the

@@ -73,7 +73,8 @@ void transpose(Matrices& rows) {
 }
 
 /// Shuffles elements of eight bytes: byte b of element i moves to position b·count + i. Only the largest
-/// multiple of 64 elements is processed. @returns the number of elements processed
+/// multiple of 64 elements is processed.
+/// @returns the number of elements processed
 std::size_t shuffle_eight(std::span<const std::byte> elements, std::size_t count, std::byte* to) {
   Matrices rows{};
   std::size_t first = 0;
@@ -195,8 +196,8 @@ bool inflate(std::span<const std::byte> stream, std::span<std::byte> bytes) {
                                     bytes.size(), nullptr) == LIBDEFLATE_SUCCESS;
 }
 
-/// Undoes the filters of a chunk except its checksum. @returns false if the bytes do not decode to
-/// elements.size() bytes.
+/// Undoes the filters of a chunk except its checksum.
+/// @returns false if the bytes do not decode to elements.size() bytes.
 bool decode(const ChunkFilters& filters, std::span<const std::byte> bytes, std::span<std::byte> elements) {
   if (filters.deflate_level) {
     std::vector<std::byte> shuffled(elements.size());

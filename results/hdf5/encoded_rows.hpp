@@ -37,8 +37,9 @@ struct EncodedRows {
 };
 
 /// Encodes the chunks of all these rows, several at a time on several threads. Chunks with the same value in
-/// all elements, such as the chunks of measures that no trial has, are encoded once. @returns one entry for
-/// each entry of `all`. @param timeline records the threads' work; null: no record.
+/// all elements, such as the chunks of measures that no trial has, are encoded once.
+/// @returns one entry for each entry of `all`.
+/// @param timeline records the threads' work; null: no record.
 std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all,
                                      timeline::Timeline* timeline = nullptr);
 
@@ -53,7 +54,8 @@ struct RowsToWrite {
 
 /// Writes rows of several datasets. Rows that fill whole chunks are encoded on several threads, and only the
 /// calls of the HDF5 library run one after the other. The library itself encodes the other rows. The file
-/// holds the same values either way. @param timeline records the threads' work; null: no record.
+/// holds the same values either way.
+/// @param timeline records the threads' work; null: no record.
 void write_rows(std::span<const RowsToWrite> all, timeline::Timeline* timeline = nullptr);
 
 // Rows as their file stores them: RowSource::fetch() finds them, and any thread reads and decodes their
@@ -65,14 +67,14 @@ struct FetchedRows {
   std::int64_t rows{0};
   std::size_t row_size{0};          ///< Size of one row in memory, bytes
   ChunkShape shape{};               ///< Shape of the chunks in which the rows are stored; unused if
-                                    ///< `elements` holds the rows
+                                    /// < `elements` holds the rows
   std::vector<StoredChunk> chunks;  ///< The chunks that contain the rows, in order
   std::vector<std::byte> elements;  ///< The decoded rows, if the HDF5 library had to decode them; otherwise
-                                    ///< empty
+                                    /// < empty
 };
 
-/// Decodes fetched rows, several chunks at a time on several threads. @returns the bytes of the rows'
-/// elements, one entry for each entry of `all`.
+/// Decodes fetched rows, several chunks at a time on several threads.
+/// @returns the bytes of the rows' elements, one entry for each entry of `all`.
 /// @param timeline records the threads' work; null: no record
 /// @throws Failure (bad_data) if stored bytes are damaged
 /// @throws Failure (machine_failed) if they cannot be read
@@ -81,7 +83,8 @@ std::vector<std::vector<std::byte>> decode_rows(std::span<const FetchedRows> all
 
 /// Turns fetched rows into encoded rows without decoding them, to be written to a dataset with the same
 /// chunks. The rows must begin where a chunk does, and end where a chunk or the source ends. Checks the
-/// checksums of several chunks at a time. @param timeline records the threads' work; null: no record.
+/// checksums of several chunks at a time.
+/// @param timeline records the threads' work; null: no record.
 /// @throws as decode_rows()
 std::vector<EncodedRows> stored_rows(std::span<const FetchedRows> all,
                                      timeline::Timeline* timeline = nullptr);

@@ -25,7 +25,8 @@ bool is_hdf5_with_user_block(const std::filesystem::path& path);
 /// An HDF5 file of another program, open to read arrays of numbers of any type.
 class ArrayFile : public File {
  public:
-  /// Opens the file. @throws Failure: bad_data if it is damaged; machine_failed if it cannot be read.
+  /// Opens the file.
+  /// @throws Failure: bad_data if it is damaged; machine_failed if it cannot be read.
   explicit ArrayFile(const std::filesystem::path& path) : File(open_foreign(path)) {}
 
   /// The paths of all datasets of integers and floating-point numbers, in alphabetic order.
@@ -34,8 +35,8 @@ class ArrayFile : public File {
   /// Lengths of the array at `path` along its dimensions; empty if there is no array of numbers at that path.
   std::optional<std::vector<Size>> lengths(const std::string& path) const;
 
-  /// All elements of the array at `path`, the last dimension varying fastest. @throws Failure (bad_data) if
-  /// they cannot be read.
+  /// All elements of the array at `path`, the last dimension varying fastest.
+  /// @throws Failure (bad_data) if they cannot be read.
   std::vector<double> values(const std::string& path) const;
 
  private:

@@ -34,7 +34,7 @@ namespace zerocount::hdf5 {
 
 using Id = std::int64_t;          ///< An identifier of an object in the HDF5 library, its type hid_t
 using Size = unsigned long long;  ///< A number of elements or a length of a dimension in the HDF5 library,
-                                  ///< its type hsize_t
+                                  /// < its type hsize_t
 
 /// Owner of an identifier of the HDF5 library; the destructor closes the identifier.
 class Handle {
@@ -51,7 +51,7 @@ class Handle {
 
   Id get() const { return id_; }
   bool close();    ///< Closes the identifier. Returns false if the HDF5 library reports a failure. A second
-                   ///< call does nothing.
+                   /// < call does nothing.
   void abandon();  ///< Gives the identifier up without closing it.
 
  private:
@@ -80,8 +80,8 @@ class Object {
   void set_text(const std::string& name, const std::string& value);
   void set_integer(const std::string& name, std::int64_t value);
   void set_unsigned(const std::string& name, std::uint64_t value);
-  /// Writes a one-dimensional attribute of integers to the object. @param element type of the elements in the
-  /// file, an integer type.
+  /// Writes a one-dimensional attribute of integers to the object.
+  /// @param element type of the elements in the file, an integer type.
   void set_integers(const std::string& name, Element element, std::span<const std::int64_t> values);
 
   std::string text(const std::string& name) const;
@@ -125,7 +125,7 @@ struct Storage {
   Element element{Element::float64};
   std::vector<Size> extent;  ///< Lengths along the dimensions, in elements; empty: a single value
   std::vector<Size> chunk;   ///< Lengths of a chunk, the block in which the file stores the elements: one per
-                             ///< dimension, each at least 1
+                             /// < dimension, each at least 1
   bool extendible{false};    ///< Whether the first dimension can grow later
   Compression compression{Compression::deflate};
 };
@@ -149,9 +149,9 @@ struct ChunkShape {
 struct StoredChunk {
   std::uint64_t address{0};        ///< Position of the chunk in the file, bytes from its beginning
   std::size_t size{0};             ///< Size of the stored chunk, bytes; 0: the chunk must be read by the HDF5
-                                   ///< library
+                                   /// < library
   std::vector<std::byte> bytes{};  ///< Stored bytes of the chunk, if the HDF5 library has read them;
-                                   ///< otherwise empty
+                                   /// < otherwise empty
 };
 
 /// Source of rows of elements that are stored in chunks and can be read: a dataset of a results file, or a
@@ -231,7 +231,7 @@ class Dataset : public Object, public RowSource {
   StoredChunk find_chunk(std::int64_t first) const;
   void store_chunk(std::int64_t first, std::span<const std::byte> stored);
   std::vector<Size> place_of(std::int64_t first) const;  ///< Coordinates of the first element of row `first`,
-                                                         ///< one per dimension: (first, 0, 0, …)
+                                                         /// < one per dimension: (first, 0, 0, …)
   std::optional<ChunkShape> read_chunk_shape() const;
 
   Element element_;
@@ -269,8 +269,8 @@ class File : public Group {
   /// Creates a new HDF5 file at `path`; replaces an existing file.
   static File create(const std::filesystem::path& path);
   static File open_to_read(const std::filesystem::path& path);
-  /// Opens an existing HDF5 file for reading and writing. @param so_far bytes written to the file earlier;
-  /// close() returns them together with the new ones.
+  /// Opens an existing HDF5 file for reading and writing.
+  /// @param so_far bytes written to the file earlier; close() returns them together with the new ones.
   static File open_to_change(const std::filesystem::path& path, storage::WrittenBytes so_far = {});
 
   /// Closes the file, and flushes it to the disk unless that is left to the caller. All other objects of the

@@ -57,15 +57,15 @@ Handle creation_properties(Id kind);
 inline constexpr std::string_view unreadable_values = "its values cannot be read or their checksum is wrong";
 
 /// Checks that the library has all filters through which a dataset is stored.
-/// @throws Failure (bad_data) with the filter's name and the remedy if it lacks one. @param file, path name
-/// the dataset in the message.
+/// @throws Failure (bad_data) with the filter's name and the remedy if it lacks one.
+/// @param file, path name the dataset in the message.
 void require_known_filters(Id dataset, const std::string& file, const std::string& path);
 
 /// Size in memory (bytes) of one row of a dataset with these lengths; its first dimension counts the rows.
 std::size_t row_size(Element element, std::span<const Size> extent);
 
-/// Calls `work` for each index from 0 to count − 1, several at a time on several threads. @param timeline
-/// records the work under the name `name`; null: no record.
+/// Calls `work` for each index from 0 to count − 1, several at a time on several threads.
+/// @param timeline records the work under the name `name`; null: no record.
 void for_each_job(std::size_t count, timeline::Timeline* timeline, std::string_view name,
                   const std::function<void(std::size_t)>& work);
 

@@ -6,7 +6,8 @@ namespace zerocount::hdf5 {
 /// counts as used while an object of this class lives. One thread may nest several uses.
 class LibraryUse {
  public:
-  /// Begins a use of the library. @throws std::logic_error while another thread uses the library
+  /// Begins a use of the library.
+  /// @throws std::logic_error while another thread uses the library
   LibraryUse();
   LibraryUse(const LibraryUse&) = delete;
   LibraryUse& operator=(const LibraryUse&) = delete;

@@ -137,8 +137,8 @@ void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes,
       field.member);
 }
 
-/// Reads records from the columns that columns_of() made. @param skipped number of records in the columns
-/// before the first of `records`.
+/// Reads records from the columns that columns_of() made.
+/// @param skipped number of records in the columns before the first of `records`.
 template <class Record>
 void scatter_all(const std::vector<RecordField<Record>>& fields,
                  const std::vector<std::vector<std::byte>>& columns, std::size_t skipped,

@@ -56,7 +56,7 @@ struct FileHeader {
   std::string name;
   Provenance provenance;
   study::Engine engine{study::Engine::reference};  ///< Engine that ran the trials, the scalar reference or
-                                                   ///< the batch engine
+                                                   /// < the batch engine
   std::uint64_t seed{0};
   std::int64_t trials{0};  ///< Number of trials per design point
   std::int64_t points{0};
@@ -68,9 +68,9 @@ struct FileHeader {
   std::string manifest_sha256;
   std::string study_sha256;
   std::optional<plugin::PluginDescription> plugin;  ///< The user's controller plugin; empty if the study has
-                                                    ///< none
+                                                    /// < none
   std::optional<std::string> samples;  ///< Exact text of the table from which correlated parameters are drawn
-                                       ///< jointly; empty if there is none
+                                       /// < jointly; empty if there is none
 };
 
 /// Error for a file that is valid as far as it was read, but unfit for this use: another format or version,
@@ -87,7 +87,8 @@ class RareFile : public ForeignFile {
   explicit RareFile(const std::filesystem::path& path);
 };
 
-/// Checks that the file `path` keeps every trial. @throws ForeignFile otherwise.
+/// Checks that the file `path` keeps every trial.
+/// @throws ForeignFile otherwise.
 void require_every_trial(const std::filesystem::path& path, const FileHeader& header);
 
 /// Name of the engine in files and messages: "batch" or "reference".
@@ -105,19 +106,19 @@ void mark_finished(hdf5::File& file);
 /// Creates a dataset in the file's root that holds one text; `meaning` is its description.
 void write_single_text(hdf5::File& file, const std::string& name, const std::string& text,
                        const std::string& meaning);
-/// Reads a text that write_single_text() wrote; empty if there is no such dataset. @throws Failure (bad_data)
-/// if it is damaged.
+/// Reads a text that write_single_text() wrote; empty if there is no such dataset.
+/// @throws Failure (bad_data) if it is damaged.
 std::optional<std::string> read_single_text(const hdf5::File& file, const std::string& name);
 
 /// Reads the header of a results file, and checks the format, its version and the checksum of the manifest.
 /// @throws RareFile for a file of `zerocount rare`; ForeignFile for another format or version; Failure
 /// (bad_data) for damage.
 FileHeader read_header(const hdf5::File& file);
-/// Reads the header of a file of `zerocount rare`. @throws ForeignFile for any other file, Failure (bad_data)
-/// for damage.
+/// Reads the header of a file of `zerocount rare`.
+/// @throws ForeignFile for any other file, Failure (bad_data) for damage.
 FileHeader read_rare_header(const hdf5::File& file);
-/// Whether the file is one of the command `zerocount rare`. @throws ForeignFile for a format that is not
-/// zerocount's
+/// Whether the file is one of the command `zerocount rare`.
+/// @throws ForeignFile for a format that is not zerocount's
 bool is_rare(const hdf5::File& file);
 
 /// The study whose trials the file `path` holds: its manifest with its overrides, and its engine. All code
@@ -128,13 +129,15 @@ bool is_rare(const hdf5::File& file);
 study::Study recorded_study(const FileHeader& header, const std::filesystem::path& path,
                             std::shared_ptr<const plugin::ControllerPlugin> plugin = nullptr);
 
-/// Checks that the trials of the file were run with this user's controller. @throws ForeignFile otherwise.
+/// Checks that the trials of the file were run with this user's controller.
+/// @throws ForeignFile otherwise.
 /// @param plugin the controller; null: none
 void require_same_plugin(const std::filesystem::path& path, const FileHeader& header,
                          const plugin::ControllerPlugin* plugin);
 
 /// Checks that the header of the file `path` describes this study, run by this build of the program (see
-/// same_build()) with the study's engine. @throws ForeignFile otherwise.
+/// same_build()) with the study's engine.
+/// @throws ForeignFile otherwise.
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,
                         const study::Study& study);
 

@@ -59,9 +59,9 @@ struct Column {
   std::string long_name;  ///< Meaning of the values, in one line
   hdf5::Element element{hdf5::Element::float64};
   std::vector<FlagMeaning> flags{};  ///< Values of an enumeration with their words; empty if the column is
-                                     ///< not an enumeration
+                                     /// < not an enumeration
   std::string role{};  ///< Role of a column of the table /point: "axis" (a swept parameter) or "statistic";
-                       ///< empty in other tables
+                       /// < empty in other tables
 };
 
 /// The word for `value` in a column that is an enumeration; the number as text if the enumeration has no such
@@ -81,10 +81,10 @@ struct Table {
   std::string group;             ///< Path of the HDF5 group from the file's root
   Column rows;                   ///< Dimension scale of the first dimension, the rows
   std::optional<Column> second;  ///< Dimension scale of the second dimension of all columns; empty if there
-                                 ///< is none
+                                 /// < is none
   std::vector<Column> columns;
   std::optional<RootDimension> last{};  ///< Dimension of all columns after `rows` and `second`; empty if
-                                        ///< there is none
+                                        /// < there is none
 };
 
 /// The values that a column of a results file may have. A file with any other value counts as damaged.
@@ -118,9 +118,9 @@ const MeasureTable& measure_table(const study::StudyFeatures& features = {});
 /// Settling times of one move for one tolerance of the position error.
 struct ToleranceRecord {
   double settling_time{0.0};        ///< Settling time of the mass that closes the loop, s (entry of
-                                    ///< MoveOutcome::tolerance_settling_times)
+                                    /// < MoveOutcome::tolerance_settling_times)
   double other_settling_time{0.0};  ///< Settling time of the other mass, s (entry of
-                                    ///< MoveOutcome::other_tolerance_settling_times)
+                                    /// < MoveOutcome::other_tolerance_settling_times)
 };
 
 /// A jerk (excursion of the error from zero after arrival), and the trial to which it belongs.
@@ -190,7 +190,7 @@ const StatisticGroup& level_group();
 struct StatisticTable {
   const StatisticGroup* group{nullptr};  ///< Kind of the statistics, an entry of statistic_groups()
   std::int64_t width{1};                 ///< Size of the second dimension, for instance the number of torque
-                                         ///< levels
+                                         /// < levels
   std::vector<PointColumn> columns;      ///< The statistics; each column has values[point·width + index]
 };
 
@@ -198,22 +198,22 @@ struct StatisticTable {
 /// [point][group].
 struct GroupCounts {
   std::vector<std::vector<std::int64_t>> trials;   ///< Number of trials that were judged; 0 in an open-loop
-                                                   ///< study
+                                                   /// < study
   std::vector<std::vector<std::int64_t>> success;  ///< Number of trials whose moves all ended with a zero
-                                                   ///< count
+                                                   /// < count
   /// Number of trials whose moves all meet the goal; empty without a goal
   std::vector<std::vector<std::int64_t>> goal_met{};
   std::vector<PointColumn> statistics{};  ///< Further statistics of the groups; each column has
-                                          ///< values[point·groups + group]
+                                          /// < values[point·groups + group]
 };
 
 /// All statistics that a file stores for some consecutive design points of a study.
 struct StoredStatistics {
   std::vector<PointColumn> points;
   std::vector<StatisticTable> tables;                ///< Statistics with a second dimension, at most one
-                                                     ///< table for each entry of statistic_groups()
+                                                     /// < table for each entry of statistic_groups()
   std::map<std::string_view, GroupCounts> groups{};  ///< Counts of trials, by the name of the grouping such
-                                                     ///< as "machine" (groupings.hpp)
+                                                     /// < as "machine" (groupings.hpp)
 };
 
 /// Number of angles over one revolution at which a friction parameter's profile is tabulated in a file, if
@@ -254,8 +254,8 @@ Table jerk_table();
 Table trace_table(const study::StudyFeatures& features);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);
 Table profile_table(const std::string& name, const std::string& unit);
-/// Description of the table with the profiles of all machines' rotors: [machine, theta]. @param name, unit of
-/// the friction parameter.
+/// Description of the table with the profiles of all machines' rotors: [machine, theta].
+/// @param name, unit of the friction parameter.
 Table rotor_table(const std::string& name, const std::string& unit);
 /// Description of the table that says how many whole and how many real numbers in /sums belong to each design
 /// point: [point].

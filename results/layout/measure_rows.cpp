@@ -18,7 +18,8 @@ constexpr ValidValues a_time_or_nan{.expected = "a finite time, not negative, or
 constexpr ValidValues an_error_or_nan{.expected = "a finite number, not negative, or NaN", .nan = true};
 
 /// The statistics that are reported for a measure of the true motion: number of moves that have it, mean,
-/// maximum and bounds of the mean. @param name JSON object that holds the statistics.
+/// maximum and bounds of the mean.
+/// @param name JSON object that holds the statistics.
 ReportedStatistics mean_of_motion(std::string_view name) {
   return {name,
           {{{n}, "moves that have this measure, of which its statistics are"},
@@ -35,7 +36,7 @@ struct ShownMotion {
   std::string head{};         ///< Head of the measure's column in the summary; empty: it has no column
   std::string legend{};       ///< Explanation of that column below the summary's table
   std::string_view output{};  ///< Meaning as an output of a trial in a sensitivity analysis; empty: it is not
-                              ///< an output
+                              /// < an output
 };
 
 /// Describes a measure of the true motion. A move has the measure if its value is not NaN. The value of a
@@ -54,8 +55,8 @@ Measure of_motion(bool study::StudyFeatures::*use, Missing missing, const char* 
   return measure;
 }
 
-/// Appends the measures of the position error of one mass, whether or not its encoder closes the loop. @param
-/// error, overshoot names of the two measures.
+/// Appends the measures of the position error of one mass, whether or not its encoder closes the loop.
+/// @param error, overshoot names of the two measures.
 void add_measures_of_mass(MeasureTable& measures, bool study::StudyFeatures::*use, const char* error,
                           const char* overshoot) {
   measures.push_back({.field = field<M>(error, "count", "true_error of this mass", &M::other_true_error),

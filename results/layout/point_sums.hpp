@@ -21,12 +21,13 @@ struct SumColumns {
   explicit SumColumns(std::span<const PointSums> sums);
 
   std::vector<std::int64_t> whole_counts, real_counts;  ///< Number of whole and of real numbers that belong
-                                                        ///< to each design point, [point]
+                                                        /// < to each design point, [point]
   std::vector<std::int64_t> whole;  ///< Whole numbers of all design points, one point after the other
   std::vector<double> real;
 };
 
-/// Writes the tables /sums for the design points from `first_point` on. @param sums [point].
+/// Writes the tables /sums for the design points from `first_point` on.
+/// @param sums [point].
 void write_sums(hdf5::File& file, std::int64_t first_point, std::span<const PointSums> sums);
 
 /// Text that identifies the meaning and order of the numbers in /sums. It differs between programs that do

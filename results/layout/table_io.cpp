@@ -42,7 +42,8 @@ hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hd
   return folder.create_dataset(name.substr(slash + 1), storage);
 }
 
-/// HDF5 storage of a dataset with this many rows. @param inner sizes of the dimensions after the rows.
+/// HDF5 storage of a dataset with this many rows.
+/// @param inner sizes of the dimensions after the rows.
 hdf5::Storage storage_of(hdf5::Element element, std::int64_t rows, std::span<const hdf5::Size> inner,
                          hdf5::Compression compression) {
   std::int64_t width = 1;

@@ -24,8 +24,9 @@ std::int64_t chunk_rows(std::int64_t width);
 
 /// HDF5 storage of a dimension scale with `size` values.
 hdf5::Storage scale_storage(const Column& scale, std::int64_t size);
-/// HDF5 storage of a column of a table. @param rows number of rows. @param second size of the second
-/// dimension; 1 if the table has none.
+/// HDF5 storage of a column of a table.
+/// @param rows number of rows.
+/// @param second size of the second dimension; 1 if the table has none.
 hdf5::Storage column_storage(const Table& table, const Column& column, std::int64_t rows, std::int64_t second,
                              hdf5::Compression compression);
 
@@ -79,9 +80,11 @@ class TableReader {
  public:
   using Column = std::shared_ptr<const hdf5::RowSource>;
 
-  /// Opens the table of a results file for reading. @throws Failure (bad_data) as TableIo::open
+  /// Opens the table of a results file for reading.
+  /// @throws Failure (bad_data) as TableIo::open
   static TableReader open(const hdf5::Group& root, const Table& table);
-  /// @param width number of elements in one row of a column. @param scale dimension scale of the rows.
+  /// @param width number of elements in one row of a column.
+  /// @param scale dimension scale of the rows.
   TableReader(std::int64_t rows, std::int64_t width, Column scale, std::vector<Column> columns)
       : rows_(rows), width_(width), scale_(std::move(scale)), columns_(std::move(columns)) {}
 
@@ -106,8 +109,8 @@ std::vector<Value> read_column(const AnyTable& io, std::size_t index) {
   return values;
 }
 
-/// Checks that every element of a column of truth values is 0 or 1. @param flags elements as bytes, from row
-/// `first` on.
+/// Checks that every element of a column of truth values is 0 or 1.
+/// @param flags elements as bytes, from row `first` on.
 /// @throws Failure (bad_data) otherwise.
 void require_flags(const TableReader& io, std::size_t index, std::int64_t first,
                    std::span<const std::byte> flags);

@@ -49,8 +49,8 @@ class AllTrialsFile : public ResultsFile {
   /// HDF5 library; any thread may take the other steps.
   StoredOutcomes stored_outcomes(layout::RowRange rows) const;
   OutcomeColumns decoded(const StoredOutcomes& stored) const { return trials()->decoded(stored); }
-  /// Last step of outcomes(): the measures of all moves, [row][move], flattened, from decoded columns. @param
-  /// rows rows to return; the columns must contain them.
+  /// Last step of outcomes(): the measures of all moves, [row][move], flattened, from decoded columns.
+  /// @param rows rows to return; the columns must contain them.
   std::vector<trial::MoveOutcome> outcomes(const OutcomeColumns& columns, layout::RowRange rows) const;
   std::vector<std::int64_t> jerk_counts(const OutcomeColumns& columns, layout::RowRange rows) const;
 
@@ -80,14 +80,14 @@ class AllTrialsFile : public ResultsFile {
   };
 
   AllTrialsFile(const AllTrialsFile& whole, std::int64_t setting);
-  /// Row in the whole file of a trial in the setting (condition at an age) that is read. @param row row of
-  /// the trial in the study of that setting alone.
+  /// Row in the whole file of a trial in the setting (condition at an age) that is read.
+  /// @param row row of the trial in the study of that setting alone.
   std::int64_t row_in_file(std::int64_t row) const;
   void require_rows(layout::RowRange rows) const;
   /// Range of positions in the file's tables from the first to the last trial in `rows`.
   layout::RowRange local(layout::RowRange rows) const;
-  /// Selects the values that belong to `rows` from the values read for local(rows). @param width number of
-  /// values of one trial.
+  /// Selects the values that belong to `rows` from the values read for local(rows).
+  /// @param width number of values of one trial.
   template <class Value>
   std::vector<Value> chosen(layout::RowRange rows, std::vector<Value> read, std::int64_t width) const;
 

@@ -37,8 +37,8 @@ void add_values(CsvFile& csv, const std::vector<layout::RecordField<Record>>& fi
   for (const layout::RecordField<Record>& field : fields) csv.add(value_text(field, record));
 }
 
-/// Writes a table with one row per record, and no other columns. @param read read(first, count) returns some
-/// of the `rows` records.
+/// Writes a table with one row per record, and no other columns.
+/// @param read read(first, count) returns some of the `rows` records.
 template <class Record, class Read>
 void export_records(const std::vector<layout::RecordField<Record>>& fields, std::int64_t rows,
                     const Read& read, parameters::AxisKind axis, CsvFile& csv) {
@@ -116,8 +116,9 @@ void export_jerks(const TrialTables& trials, CsvFile& csv) {
   export_records(layout::jerk_fields(), trials.jerk_count(), read, trials.features().axis, csv);
 }
 
-/// Adds the tables of trials, outcomes, jerks and samples to the tables to export. @param trials must live as
-/// long as the tables. @param trials_of_point number of trials per design point.
+/// Adds the tables of trials, outcomes, jerks and samples to the tables to export.
+/// @param trials must live as long as the tables.
+/// @param trials_of_point number of trials per design point.
 void add_trial_tables(std::vector<ExportedTable>& tables, const TrialTables& trials,
                       std::int64_t trials_of_point) {
   tables.push_back({"trials.csv", [&trials, trials_of_point](const ResultsFile&, CsvFile& csv) {
@@ -245,7 +246,8 @@ void add_statistic_tables(std::vector<ExportedTable>& tables, const ResultsFile&
 }
 
 /// Writes the tables as CSV files. No file gets its final name before all are complete, so that a failure
-/// leaves nothing that would stop the next attempt. @returns the paths of the files.
+/// leaves nothing that would stop the next attempt.
+/// @returns the paths of the files.
 std::vector<fs::path> write_tables(const std::vector<ExportedTable>& tables, const ResultsFile& file,
                                    const fs::path& directory, ExistingFiles existing) {
   std::vector<fs::path> paths(tables.size());

@@ -98,8 +98,8 @@ std::string path_in(const hdf5::Group& group, const std::string& name) {
 
 bool compare_groups(const hdf5::Group& one, const hdf5::Group& other, const Comparison& comparison);
 
-/// Compares the member `name` of group `one` with the member of that name in group `other`. @returns false if
-/// the comparison is to end.
+/// Compares the member `name` of group `one` with the member of that name in group `other`.
+/// @returns false if the comparison is to end.
 bool compare_member(const hdf5::Group& one, const hdf5::Group& other, const std::string& name,
                     const Comparison& comparison) {
   const std::string path = path_in(one, name);

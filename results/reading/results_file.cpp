@@ -46,7 +46,8 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
   return values;
 }
 
-/// Checks that a dataset has one value per design point. @throws Failure (bad_data) otherwise.
+/// Checks that a dataset has one value per design point.
+/// @throws Failure (bad_data) otherwise.
 void require_points(const hdf5::Dataset& dataset, std::int64_t points) {
   const std::vector<hdf5::Size> extent = dataset.extent();
   if (!extent.empty() && extent.size() <= 2 && extent[0] == static_cast<hdf5::Size>(points)) return;

@@ -23,9 +23,9 @@ namespace zerocount::reading {
 enum class Require {
   complete,   ///< The file must hold every trial of its study, as statistics need it.
   any_part,   ///< The file may also be a part of a study, or a shard (finished trials of a run that has not
-              ///< ended).
+              /// < ended).
   unfinished  ///< Any of these, even if this process is still making the file or has checked it already. The
-              ///< checksum is not read.
+              /// < checksum is not read.
 };
 
 /// A profile of a friction parameter along the axis, as it is tabulated in a results file.
@@ -34,7 +34,7 @@ struct StoredProfile {
   std::string unit;
   std::vector<double> theta;  ///< Angles at which the profile is tabulated, rad
   std::vector<double> value;  ///< Values in `unit`, [theta]; for rotors of machines [machine][theta],
-                              ///< flattened
+                              /// < flattened
   /// Number of machines, each with a rotor of its own; 0: one rotor for all trials
   std::int64_t machines{0};
   std::string theta_unit{"rad"};
@@ -48,13 +48,13 @@ struct StoredGroups {
   std::vector<study::InputColumn> columns;  ///< Input parameters that are drawn once for each group
   std::vector<std::vector<double>> inputs;  ///< Values of these input parameters, [column][group]
   std::vector<std::string> names;           ///< Names of the groups, [group]; empty if the groups have only
-                                            ///< numbers
+                                            /// < numbers
   std::vector<double> values;               ///< Ages, [group]; empty for other groupings
   std::string unit;                         ///< Unit of the ages in `values`
   std::vector<std::int64_t> success;        ///< Number of trials that succeeded, [point][group], flattened
   std::vector<std::int64_t> trials;         ///< Number of trials that were judged, [point][group], flattened
   std::vector<std::int64_t> goal_met;  ///< Number of trials that meet the goal, [point][group], flattened;
-                                       ///< empty for machines, and without a goal
+                                       /// < empty for machines, and without a goal
   std::vector<layout::PointColumn> statistics;
 };
 
@@ -95,8 +95,8 @@ class ResultsFile {
   bool has_profiles() const { return contains("profile"); }
   std::vector<StoredProfile> profiles() const;
 
-  /// The groups of a grouping of the trials; empty in a shard, and in a study without such groups. @param
-  /// name name of the grouping, such as "machine".
+  /// The groups of a grouping of the trials; empty in a shard, and in a study without such groups.
+  /// @param name name of the grouping, such as "machine".
   std::optional<StoredGroups> groups(std::string_view name) const;
 
   /// The trials that the file keeps; empty in a study with `keep: statistics`.
@@ -107,9 +107,9 @@ class ResultsFile {
   std::int64_t first_point() const { return rows().first / header().trials; }
   std::int64_t points() const { return (rows().end() - 1) / header().trials - first_point() + 1; }
   layout::RowRange rows_of(std::int64_t point) const;  ///< Rows of the design point's trials that are in the
-                                                       ///< file
-  /// The sums over the trials of one design point. @param index index of the point, counted from
-  /// first_point().
+                                                       /// < file
+  /// The sums over the trials of one design point.
+  /// @param index index of the point, counted from first_point().
   /// @throws ForeignFile if the file has no sums, because it keeps every trial
   layout::PointSums sums(std::int64_t index) const;
 
@@ -129,7 +129,7 @@ class ResultsFile {
     std::vector<std::int64_t> whole_begin, real_begin;
   };
 
-  /// What is open of the file: a shard or an HDF5 file, and their tables.
+  /// The open parts of the file: a shard or an HDF5 file, and their tables.
   struct Opened {
     std::optional<ShardFile> shard;  ///< The open shard; empty if the file is not a shard
     std::optional<hdf5::File> file;  ///< The open HDF5 file; empty if the file is a shard

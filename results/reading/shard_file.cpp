@@ -130,7 +130,8 @@ bool has_possible_rows(const ShardHead& head) {
                              [](const auto& column) { return column.rows >= 0 && column.rows <= most; });
 }
 
-/// Reads the head of a shard. @returns the head, and the position of the first chunk in the file.
+/// Reads the head of a shard.
+/// @returns the head, and the position of the first chunk in the file.
 std::pair<ShardHead, std::uint64_t> read_head(const fs::path& path, const storage::FileDescriptor& file) {
   constexpr std::size_t max_line = 64;
   const std::size_t size = storage::size_of_file(path, file);

@@ -43,8 +43,9 @@ bool is_shard(const std::filesystem::path& path);
 /// A shard (a file with finished trials of a run that has not ended), open to be read.
 class ShardFile {
  public:
-  /// Opens a shard. @throws ForeignFile for a shard of another version; Failure (bad_data) for damage,
-  /// (machine_failed) if it cannot be read
+  /// Opens a shard.
+  /// @throws ForeignFile for a shard of another version; Failure (bad_data) for damage, (machine_failed) if
+  /// it cannot be read
   explicit ShardFile(const std::filesystem::path& path,
                      layout::Checksum checksum = layout::Checksum::required);
 

@@ -181,8 +181,9 @@ OutcomeColumns TrialTables::decoded(const StoredOutcomes& stored) const {
 
 namespace {
 
-/// Decodes the records of some rows from columns, [row][record], flattened. @param skipped_rows rows in the
-/// columns before the first. @param width number of records in a row.
+/// Decodes the records of some rows from columns, [row][record], flattened.
+/// @param skipped_rows rows in the columns before the first.
+/// @param width number of records in a row.
 template <class Record>
 std::vector<Record> records_at(const std::vector<layout::RecordField<Record>>& fields,
                                const OutcomeColumns::Columns& columns, std::int64_t skipped_rows,

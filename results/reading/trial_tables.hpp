@@ -39,7 +39,8 @@ struct TrialSource {
 };
 
 /// Access to the tables of trials in a results file.
-/// @param file must live as long as the opened tables. @param measures measures that moves may have.
+/// @param file must live as long as the opened tables.
+/// @param measures measures that moves may have.
 TrialSource trials_in(const hdf5::File& file, const layout::MeasureTable& measures);
 
 /// The trials that a results file or a shard keeps: /trial, /outcome, /jerk and /trace. With `keep: failures`
@@ -126,7 +127,7 @@ class TrialTables {
   std::int64_t number_of(std::int64_t position) const { return first_row_.value_or(0) + position; }
 
   std::optional<std::int64_t> first_row_;  ///< Global row of the first trial, if every trial is kept;
-                                           ///< otherwise empty
+                                           /// < otherwise empty
   study::StudyFeatures features_;
   std::vector<study::InputColumn> inputs_;
   layout::TableReader trials_;  ///< Columns: point, index, then one per input.
@@ -136,7 +137,7 @@ class TrialTables {
   std::vector<layout::RecordField<trial::MoveOutcome>> move_fields_;
   layout::TableReader outcomes_;
   std::optional<layout::TableReader> bands_;  ///< Table of the measures of error bands; empty if the file has
-                                              ///< none
+                                              /// < none
   /// Table of the settling times for tolerances of the position error; empty if the file has none
   std::optional<layout::TableReader> tolerances_;
   layout::TableReader jerks_;

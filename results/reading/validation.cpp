@@ -36,8 +36,9 @@ const layout::RecordField<Record>* find_field(const std::vector<layout::RecordFi
   dataset.fail(fmt::format("{}: it is {}; expected {}", row, value, expected));
 }
 
-/// Checks that `holds` is true for the value of the field in every record. @param row_of gives the row of the
-/// i-th record, for the message. @param expected the possible values in words, for the message.
+/// Checks that `holds` is true for the value of the field in every record.
+/// @param row_of gives the row of the i-th record, for the message.
+/// @param expected the possible values in words, for the message.
 /// @throws Failure (bad_data) otherwise.
 template <class Record, class RowOf, class Holds>
 void require_all(const layout::TableReader& table, const std::vector<layout::RecordField<Record>>& fields,

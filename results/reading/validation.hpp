@@ -25,21 +25,21 @@ struct StoredGroups;
 void validate_numbering(const layout::FileHeader& header, const layout::TableReader& trials,
                         const layout::TableReader& jerks);
 
-/// Checks that the measures of `moves` have possible values. @param first_row number of their first trial,
-/// for messages
+/// Checks that the measures of `moves` have possible values.
+/// @param first_row number of their first trial, for messages
 /// @param fields descriptions of the columns of `outcomes`. Measures that the file does not have are not
 /// checked.
 void validate_outcomes(const layout::TableReader& outcomes,
                        const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                        std::int64_t first_row, std::span<const trial::MoveOutcome> moves);
 
-/// Checks that the measures of error bands have possible values. @param first_row row of the first of `bands`
-/// in the table, for messages.
+/// Checks that the measures of error bands have possible values.
+/// @param first_row row of the first of `bands` in the table, for messages.
 void validate_bands(const layout::TableReader& table, std::int64_t first_row,
                     std::span<const trial::BandOutcome> bands);
 
-/// Checks that the settling times for tolerances have possible values. @param first_row row of the first of
-/// `records` in the table, for messages.
+/// Checks that the settling times for tolerances have possible values.
+/// @param first_row row of the first of `records` in the table, for messages.
 void validate_tolerances(const layout::TableReader& table,
                          const std::vector<layout::RecordField<layout::ToleranceRecord>>& fields,
                          std::int64_t first_row, std::span<const layout::ToleranceRecord> records);
@@ -57,8 +57,9 @@ void validate_jerks(const layout::TableReader& table, std::int64_t moves, std::i
                     std::span<const layout::JerkRecord> jerks);
 
 /// Checks that the trials' outcomes count exactly these jerks, in order of trials and moves.
-/// @param rows global rows of the trials. @param outcomes [trial][move]. @param jerks as many as `outcomes`
-/// count.
+/// @param rows global rows of the trials.
+/// @param outcomes [trial][move].
+/// @param jerks as many as `outcomes` count.
 void validate_jerk_counts(const layout::TableReader& table, std::span<const std::int64_t> rows,
                           std::span<const trial::MoveOutcome> outcomes,
                           std::span<const layout::JerkRecord> jerks);

@@ -24,7 +24,8 @@ struct Source {
   layout::RowRange rows;  ///< Rows in the table that is written
 };
 
-/// Number of elements in one row of the table's columns. @param width size of the second dimension
+/// Number of elements in one row of the table's columns.
+/// @param width size of the second dimension
 std::int64_t elements_of_row(const layout::Table& table, std::int64_t width) {
   return table.last ? width * std::ssize(table.last->values) : width;
 }
@@ -60,16 +61,16 @@ using Block = std::vector<std::vector<std::byte>>;
 /// mostly in it, too.
 class Sources {
  public:
-  /// @param width size of the second dimension. @param chunk number of rows in a chunk (stored block) of the
-  /// table that is written.
+  /// @param width size of the second dimension.
+  /// @param chunk number of rows in a chunk (stored block) of the table that is written.
   Sources(const layout::Table& table, std::span<const ShardInfo> shards, std::int64_t width,
           std::int64_t chunk)
       : table_(table), sources_(find_sources(table, shards, width)), width_(width), chunk_(chunk) {}
 
   std::int64_t rows() const { return sources_.empty() ? 0 : sources_.back().rows.end(); }
 
-  /// Copies the rows `wanted` of all columns to `out` without decoding them. @returns false if that is not
-  /// possible, because they are not whole chunks of one shard.
+  /// Copies the rows `wanted` of all columns to `out` without decoding them.
+  /// @returns false if that is not possible, because they are not whole chunks of one shard.
   bool copy_chunks(layout::RowRange wanted, layout::TableIo& out, timeline::Timeline* timeline) {
     const std::size_t index = index_of(wanted.first);
     const Source& source = sources_[index];

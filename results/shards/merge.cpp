@@ -42,7 +42,8 @@ std::vector<fs::path> expand(std::span<const fs::path> inputs) {
   return files;
 }
 
-/// Checks that the shards, sorted by rows, cover `rows` without gaps and overlaps. @throws Failure otherwise.
+/// Checks that the shards, sorted by rows, cover `rows` without gaps and overlaps.
+/// @throws Failure otherwise.
 void require_cover(std::span<const ShardInfo> shards, layout::RowRange rows, const fs::path& output) {
   std::int64_t next = rows.first;
   const ShardInfo* previous = nullptr;
@@ -126,8 +127,8 @@ void number_kept_trials(hdf5::File& file, const study::Study& study) {
   }
 }
 
-/// Writes the merged file except sums, statistics and the completion mark. @returns the record of the bytes
-/// written.
+/// Writes the merged file except sums, statistics and the completion mark.
+/// @returns the record of the bytes written.
 storage::WrittenBytes write_trials_of(std::span<const ShardInfo> shards, const study::Study& study,
                                       const fs::path& part, layout::RowRange rows,
                                       const MergeOptions& options) {
@@ -168,7 +169,8 @@ void write_point_statistics(hdf5::File& file, const study::Study& study,
                               points);
 }
 
-/// The shards sorted by rows. @throws Failure unless they cover `rows` without gaps and overlaps.
+/// The shards sorted by rows.
+/// @throws Failure unless they cover `rows` without gaps and overlaps.
 std::vector<ShardInfo> in_order(std::span<const ShardInfo> shards, layout::RowRange rows,
                                 const fs::path& output) {
   std::vector<ShardInfo> ordered(shards.begin(), shards.end());

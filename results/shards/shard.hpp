@@ -43,8 +43,9 @@ struct ShardOptions {
 /// Writes a shard, a file with what the study keeps of the finished trials `rows`. `path` appears when the
 /// shard is complete on the disk.
 /// @param trials all of these trials or, if the study keeps only failures, the failures among them, in order
-/// of rows. @param sums sums over all of these trials, [point] from the point of the first row on; empty if
-/// the study keeps every trial.
+/// of rows.
+/// @param sums sums over all of these trials, [point] from the point of the first row on; empty if the study
+/// keeps every trial.
 /// @throws Failure (machine_failed) with the path and the reason; std::invalid_argument if the trials do not
 /// fit the rows and the study.
 void write_shard(const std::filesystem::path& path, const study::Study& study, layout::RowRange rows,
@@ -65,7 +66,7 @@ struct ShardProblem {
   enum class Kind {
     damaged,  ///< The file is damaged, and its trials are lost.
     foreign   ///< The file is valid, but belongs to another study or another build of the program, or has
-              ///< another format or version (ForeignFile).
+              /// < another format or version (ForeignFile).
   };
 
   std::filesystem::path path;
@@ -78,7 +79,7 @@ struct ShardSurvey {
   std::vector<ShardInfo> shards;                  ///< Valid shards, in order of rows
   std::vector<ShardProblem> problems;             ///< Shards that are damaged or foreign, in order of paths
   std::vector<std::filesystem::path> unfinished;  ///< Files *.part that a killed process has left; they can
-                                                  ///< be removed
+                                                  /// < be removed
 };
 
 /// The shards and parts in `directory`: its regular files *.shard and *.h5, sorted by name.
@@ -95,8 +96,8 @@ layout::FileHeader inspect_header(const std::filesystem::path& path,
 /// @throws as inspect_header does
 layout::FileHeader unchecked_header(const std::filesystem::path& path);
 
-/// Whether the shard or part keeps every trial; otherwise it has sums over trials. @throws as inspect_header
-/// does
+/// Whether the shard or part keeps every trial; otherwise it has sums over trials.
+/// @throws as inspect_header does
 bool keeps_every_trial(const std::filesystem::path& path);
 
 /// The path and rows of a shard or part. Reads the whole file and checks its checksum trailer, format,
@@ -124,7 +125,8 @@ struct EncodedShard {
 };
 
 /// Encodes finished trials as the bytes of a shard.
-/// @param columns data that is kept of the trials `rows`. @param sums as for write_shard().
+/// @param columns data that is kept of the trials `rows`.
+/// @param sums as for write_shard().
 /// @throws std::invalid_argument if they do not fit the rows and the study
 EncodedShard encode_shard(const study::Study& study, layout::RowRange rows, TrialColumns&& columns,
                           std::vector<layout::PointSums>&& sums, const ShardOptions& options = {});

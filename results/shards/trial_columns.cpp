@@ -11,8 +11,8 @@
 namespace zerocount::shards {
 namespace {
 
-/// The bytes of a column that holds one number of each trial. @param value_of gives the number of a trial's
-/// result.
+/// The bytes of a column that holds one number of each trial.
+/// @param value_of gives the number of a trial's result.
 template <class ValueOf>
 std::vector<std::byte> column_of(std::span<const TrialResult> results, const ValueOf& value_of) {
   using Value = std::invoke_result_t<ValueOf, const TrialResult&>;
@@ -38,7 +38,8 @@ TableColumns trial_columns(const study::Study& study, std::span<const TrialResul
   return trials;
 }
 
-/// Makes the columns of a table from records. @param width number of records in one row of the table.
+/// Makes the columns of a table from records.
+/// @param width number of records in one row of the table.
 template <class Record>
 TableColumns record_columns(const std::vector<layout::RecordField<Record>>& fields,
                             const std::vector<const Record*>& records, std::int64_t width) {

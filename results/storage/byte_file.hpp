@@ -16,7 +16,7 @@ namespace zerocount::storage {
 
 /// A failed system call on a file: what was tried, and why it failed.
 struct IoFailure {
-  std::string_view action;  ///< What was tried, as a text that completes the message "cannot …"
+  std::string_view action;  ///< The action that failed, as a text that completes the message "cannot …"
   int error{0};             ///< Error number of the system (errno)
 };
 
@@ -33,7 +33,8 @@ class ByteFile {
     change   ///< Opens an existing file to read and write.
   };
 
-  /// Opens the file. @param so_far bytes written to the file earlier.
+  /// Opens the file.
+  /// @param so_far bytes written to the file earlier.
   /// @throws Failure (machine_failed) with the path and the system's reason if it cannot be opened.
   ByteFile(std::filesystem::path path, Mode mode, WrittenBytes so_far = {});
 
@@ -47,7 +48,8 @@ class ByteFile {
              Rewritten rewritten = Rewritten::in_part);
   void resize(std::uint64_t size);
   /// Reads bytes as read() does, but does not record a failure, so that several threads can read at a time.
-  /// Only for a file to which nothing has been written. @return the failure; empty on success
+  /// Only for a file to which nothing has been written.
+  /// @return the failure; empty on success
   std::optional<IoFailure> read_unrecorded(std::uint64_t offset, std::span<std::byte> bytes) const;
   /// Closes the file, after flushing it to the disk and dropping it from the page cache.
   void close(Flush flush = Flush::now);

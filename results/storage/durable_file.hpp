@@ -14,7 +14,7 @@ namespace zerocount::storage {
 enum class Flush {
   now,
   later  ///< The caller brings the file to the disk by synchronise(), or by Flush::now when the file is
-         ///< closed again.
+         /// < closed again.
 };
 
 /// Owner of an open POSIX file descriptor; the destructor closes it.
@@ -61,8 +61,9 @@ void require_replaceable(const std::filesystem::path& path);
 /// write leaves nothing on the disk.
 class UnfinishedFile {
  public:
-  /// Makes the place free. @throws Failure (machine_failed) if something other than a regular file has that
-  /// name; see also require_replaceable().
+  /// Makes the place free.
+  /// @throws Failure (machine_failed) if something other than a regular file has that name; see also
+  /// require_replaceable().
   explicit UnfinishedFile(const std::filesystem::path& path);
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
@@ -104,20 +105,21 @@ void make_directory(const std::filesystem::path& path);
 /// @throws Failure (machine_failed)
 [[noreturn]] void fail_irregular(const std::filesystem::path& path);
 
-/// Throws the error for a file whose contents, read back, differ from the contents written. @param what what
-/// differs, for the message.
+/// Throws the error for a file whose contents, read back, differ from the contents written.
+/// @param what what differs, for the message.
 /// @throws Failure (machine_failed)
 [[noreturn]] void fail_read_back(const std::filesystem::path& path, std::string_view what);
 
-/// Throws the error "PATH: cannot ACTION: reason". @param error error number of the system (errno), which
-/// gives the reason.
+/// Throws the error "PATH: cannot ACTION: reason".
+/// @param error error number of the system (errno), which gives the reason.
 /// @throws Failure (machine_failed)
 [[noreturn]] void fail_with(const std::filesystem::path& path, std::string_view action, int error);
 
 /// A temporary folder; the destructor removes it with its contents.
 class TemporaryFolder {
  public:
-  /// Creates the folder. @throws Failure (machine_failed) with the path and the system's reason.
+  /// Creates the folder.
+  /// @throws Failure (machine_failed) with the path and the system's reason.
   TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

@@ -19,18 +19,20 @@ std::string bytes_at(const std::filesystem::path& path, std::size_t offset, std:
 
 std::size_t size_of_file(const std::filesystem::path& path, const FileDescriptor& file);
 
-/// Reads `bytes.size()` bytes at the current position of an open file; fewer only at its end. @returns the
-/// number of bytes read. @param path name of the file in error messages.
+/// Reads `bytes.size()` bytes at the current position of an open file; fewer only at its end.
+/// @returns the number of bytes read.
+/// @param path name of the file in error messages.
 std::size_t read_some(const std::filesystem::path& path, const FileDescriptor& file,
                       std::span<std::byte> bytes);
 
-/// Fills `bytes` from an open file, from `offset` on. Several threads can read at a time. @param path name of
-/// the file in error messages.
+/// Fills `bytes` from an open file, from `offset` on. Several threads can read at a time.
+/// @param path name of the file in error messages.
 void read_at(const std::filesystem::path& path, const FileDescriptor& file, std::uint64_t offset,
              std::span<std::byte> bytes);
 
 /// SHA-256 of the next `length` bytes of an open file from its current position, which is behind them
-/// afterwards. @param path name of the file in error messages.
+/// afterwards.
+/// @param path name of the file in error messages.
 hash::Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length);
 
 /// Length of the checksum trailer in bytes: the text "zerocount-seal sha256 ", 64 hexadecimal digits and a

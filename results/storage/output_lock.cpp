@@ -62,8 +62,8 @@ fs::path own_file(fs::path output) {
   return output.replace_filename(name);
 }
 
-/// Removes "-TEXT", the last part of an owner file's name, from the end of `text`. @returns TEXT; empty if
-/// there is no "-".
+/// Removes "-TEXT", the last part of an owner file's name, from the end of `text`.
+/// @returns TEXT; empty if there is no "-".
 std::optional<std::string_view> take_last(std::string_view& text) {
   const std::size_t dash = text.rfind('-');
   if (dash == std::string_view::npos) return std::nullopt;
@@ -113,7 +113,8 @@ std::optional<std::int64_t> time_of(const fs::path& file) {
 }
 
 /// Waits until it is known whether the owner of the lock file `file` lives: it has renewed the file, or has
-/// not done so within the patience. @returns whether it lives.
+/// not done so within the patience.
+/// @returns whether it lives.
 bool shows_itself(const fs::path& file, const Heartbeat& heartbeat) {
   const std::optional<std::int64_t> before = time_of(file);
   const auto deadline = std::chrono::steady_clock::now() + heartbeat.patience;
@@ -205,7 +206,8 @@ FileDescriptor open_lock(const std::filesystem::path& path) {
 }
 
 /// Tries to get an flock on the file for a short time, because lock_state() of another process may hold it
-/// for a moment. @returns 0, or the error number (errno).
+/// for a moment.
+/// @returns 0, or the error number (errno).
 int lock(const FileDescriptor& file) {
   constexpr int tries = 5;
   for (int i = 1;; ++i) {

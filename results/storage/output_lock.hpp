@@ -64,8 +64,8 @@ bool is_owned(const std::filesystem::path& output);
 /// an OwnerLock replaces it.
 class OutputLock {
  public:
-  /// Takes the lock. @throws Failure (machine_failed) if another run holds the lock or the lock file cannot
-  /// be created.
+  /// Takes the lock.
+  /// @throws Failure (machine_failed) if another run holds the lock or the lock file cannot be created.
   explicit OutputLock(const std::filesystem::path& output);
   OutputLock(const OutputLock&) = delete;
   OutputLock& operator=(const OutputLock&) = delete;

@@ -67,7 +67,7 @@ hash::Sha256 WrittenBytes::require_in(const std::filesystem::path& path, timelin
   struct Block {
     std::uint64_t offset;
     std::vector<std::byte> bytes;
-    const Piece* written;  ///< What was written to this range; null: nothing was written there
+    const Piece* written;  ///< The bytes that were written to this range; null: nothing was written there
   };
   using BlockPointer = std::shared_ptr<Block>;
   constexpr std::uint64_t max_gap = 1 << 18;

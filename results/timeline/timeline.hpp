@@ -56,7 +56,8 @@ double processor_seconds();
 /// Measures the time between its construction and destruction, and adds it to a timeline as a span.
 class TimeSpan {
  public:
-  /// @param timeline may be null; then nothing is done. @param name must live as long as the timeline.
+  /// @param timeline may be null; then nothing is done.
+  /// @param name must live as long as the timeline.
   TimeSpan(Timeline* timeline, std::string_view name, Work work, std::int64_t trials = 0)
       : timeline_(timeline), span_{name, work, trials} {
     if (timeline_ == nullptr) return;

@@ -14,7 +14,7 @@
 
 namespace zerocount::command_line {
 
-/// What a command does with the file whose path is the value of an option.
+/// Use that a command makes of the file whose path is the value of an option.
 enum class FileUse {
   none,     ///< The option's value is not a path.
   read,     ///< The command reads the file.
@@ -124,7 +124,7 @@ class Arguments {
   /// Value of an option that must be one of `words`; the first of them if the option is not given.
   std::string one_of(std::string_view option, const std::vector<std::string>& words) const;
 
-  /// What the command does with the file that the option names.
+  /// Use that the command makes of the file that the option names.
   FileUse file_use(std::string_view option) const;
 
   /// Whole number from low to high that the option has as value; nothing without the option.

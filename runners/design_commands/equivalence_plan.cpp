@@ -227,7 +227,7 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   for (std::int64_t i = 0; i < study::point_count(study); ++i) {
     for (std::size_t setting = 0; setting < under.size(); ++setting) {
       add_point(plan, samples, study.points.labels[static_cast<std::size_t>(i)],
-                study.settings.empty() ? "" : study::label_of(study.settings, setting),
+                study::label_of(study.settings, static_cast<std::int64_t>(setting)),
                 run_point(under[setting], i, plan.pilot));
       progress.update(done += plan.pilot);
     }

@@ -87,11 +87,11 @@ ExperimentOutputs experiment_outputs(const command_line::Arguments& arguments) {
 study::Study experiment_study(const command_line::Arguments& arguments) {
   study::Study study = commands::load_study(arguments.operands()[0], arguments);
   if (study.settings.empty()) return study;
-  const std::optional<std::string> setting = arguments.value("condition");
+  const std::optional<std::string> condition = arguments.value("condition");
   if (!study.settings.ages.at.empty())
     return study::in_setting(
-        study, study::setting_named(study, setting, command_line::number_option(arguments, "age", 0.0)));
-  if (setting) return study::in_setting(study, study::setting_labelled(study, *setting));
+        study, study::setting_named(study, condition, command_line::number_option(arguments, "age", 0.0)));
+  if (condition) return study::in_setting(study, study::setting_labelled(study, *condition));
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: it has the conditions {}, and a record is made under one of them; expected "
                             "--condition with its name",

@@ -122,12 +122,12 @@ std::int32_t zerocount_open_study(const char* file, zerocount_study** study) {
   return guarded([&] { *study = new zerocount_study{study_of_file(file)}; });
 }
 
-std::int32_t zerocount_study_under(const zerocount_study* study, const char* setting,
+std::int32_t zerocount_study_under(const zerocount_study* study, const char* condition,
                                    zerocount_study** under) {
   namespace study_of = zerocount::study;
   return guarded([&] {
     *under = new zerocount_study{
-        study_of::in_setting(study->study, study_of::setting_labelled(study->study, setting))};
+        study_of::in_setting(study->study, study_of::setting_labelled(study->study, condition))};
   });
 }
 

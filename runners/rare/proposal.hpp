@@ -87,7 +87,8 @@ struct Trial {
 /// Function that simulates trials, given their `z` and `number`, and sets their `failed` and `scores`.
 using Simulation = std::function<void(std::span<Trial>)>;
 
-/// Number of standard normal coordinates of a trial, and the discrete draws that depend on them.
+/// Space in which each trial is a point: the number of its standard normal coordinates, and the discrete
+/// draws that these coordinates decide.
 struct TrialSpace {
   std::size_t coordinates{0};
   std::vector<randomness::DiscreteDraw> discrete{};

@@ -44,7 +44,7 @@ struct Question {
   Population of;       ///< Population of trials to which the probability refers.
   measures::MoveEvent event;
   std::vector<randomness::RandomCoordinate> coordinates;
-  TrialSpace space;  ///< Space of the standard normal coordinates of a trial, with its discrete draws.
+  TrialSpace space;  ///< Number of coordinates of a trial, and its discrete draws.
 };
 
 Question question_of(study::Study study, const Population& of, measures::MoveEvent event);

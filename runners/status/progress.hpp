@@ -20,7 +20,7 @@ namespace zerocount::status {
 /// signals.
 class InterruptionWatch {
  public:
-  /// What happens to work that does not stop soon after a signal.
+  /// Treatment of work that does not stop soon after a signal.
   enum class Unstopped : std::uint8_t {
     wait,  ///< The work goes on until it stops by itself, because it has something to keep or to remove.
     end    ///< The process is ended, with the exit code of an interruption. Nothing is lost by this.

@@ -47,7 +47,7 @@ void assemble(std::span<const shards::ShardInfo> shards, const study::Study& stu
 /// seed that follows from the study's seed. The design is monte_carlo, whatever the design of the file. Every
 /// machine is tried under every setting (condition at an age) of the study.
 ///
-/// In a study with machines, every trial has a machine of its own, so that Clopper–Pearson bounds hold.
+/// Every trial of a study with machines has a machine of its own here, so that Clopper–Pearson bounds hold.
 /// Exception: if the study has a goal, each new machine has as many trials as a machine of the file. The
 /// result does not depend on the number of cores.
 /// @param plugin the user's controller, if the study has one
@@ -99,7 +99,7 @@ RecordPlaces places_of_records(const reading::TrialTables& trials);
 std::vector<shards::TrialResult> read_trials(const reading::TrialTables& trials, layout::RowRange rows,
                                              std::int64_t first_row, const RecordPlaces& records);
 
-/// What a run finds at the path of its output file.
+/// State in which a run finds its output file.
 enum class ExistingUse {
   none,      ///< There is no output file, or the run replaces it.
   complete,  ///< The file already has all wanted trials, so nothing is run.

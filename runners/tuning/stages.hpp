@@ -32,7 +32,7 @@ struct LeftOut {
 /// a stop was requested.
 bool ended(const trials::Effort& effort, const std::function<void()>& work);
 
-/// What a tuning works on: the study with its free parameters, the budget and the effort.
+/// The search space of a tuning: the study with its free parameters, the budget and the effort.
 struct Space {
   const study::Study& study;  ///< Study that is tuned, on whose machines values are simulated.
   TuneBudget budget{};

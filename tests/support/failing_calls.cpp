@@ -1,12 +1,11 @@
-// Preloaded into a program (LD_PRELOAD), it makes one of the program's system calls fail, as a full or broken
-// disk does. What fails is said by the environment:
+// Preloaded into a program (LD_PRELOAD), this library makes one of the program's system calls fail, as a full
+// or broken disk does. Variables of the environment say which call fails, and how:
 //
 //   FAIL_UNDER   folder: only calls on files in it are counted. Relative paths are taken to be in it.
-//   FAIL_CALLS   "writes" (and opening, truncating, synchronising, renaming, closing) or "reads"
-//   FAIL_AT      which of these calls fails, from 1; 0: none
-//   FAIL_ERROR   errno of the failure; "lost": a write that reports success and does nothing; "signal9":
-//   nothing
-//                fails, but the process gets this signal before the call
+//   FAIL_CALLS   "writes" (which include opening, truncating, synchronising, renaming and closing) or "reads"
+//   FAIL_AT      number of the call that fails, counted from 1; 0: none
+//   FAIL_ERROR   errno of the failure; "lost": a write reports success and writes nothing;
+//                "signal9": no call fails, but the process gets this signal before the call
 //   FAIL_LASTING "1": all later calls fail too
 //   FAIL_COUNT   file to which the number of calls is written at the end
 //
@@ -61,7 +60,9 @@ std::atomic<long> calls{0};
 
 enum class Kind { read, write, other };
 
-/// Counts a system call of this kind. Returns the errno with which it is to fail, or 0 if it is not to fail.
+/// Counts a system call, if it is of the kind that the plan names, and sends the plan's signal if this is the
+/// planned call. Returns the errno with which the call is to fail, `lost` for a write that is to be lost, or
+/// 0 if the call is to be made.
 int failure_of(Kind kind) {
   if ((kind == Kind::read) != plan().reads) return 0;
   const long number = ++calls;

@@ -96,7 +96,8 @@ FitResult fit_all_readings(Records records, const FitModel& model, const Observa
 
 /// The fit to observations with independent errors (observe()), starting from a fit to all readings. If that
 /// fit leaves residuals above the rounding of the readings, it is returned unchanged: the law causes them,
-/// and observations would take most of the time. @param rough the fit to all readings
+/// and observations would take most of the time.
+/// @param rough the fit to all readings
 LawFit refined(Records records, const FitModel& model, const FitResult& rough) {
   LawFit fit;
   fit.setting = setting_of(model);

@@ -19,7 +19,8 @@
 namespace zerocount::fit {
 
 /// Ranges of the coordinates (fitted unknowns) of a law: a fit may change each by a factor of 1000. The last
-/// coordinate is the time offset. @param dimension number of coordinates
+/// coordinate is the time offset.
+/// @param dimension number of coordinates
 std::vector<CoordinateRange> law_coordinates(std::size_t dimension);
 
 /// Orders of magnitude in the records, from which the starting points of a law's fit follow.
@@ -36,8 +37,9 @@ RecordScales scales_of(Records records);
 /// sliding.
 std::span<const friction::FrictionModel> fitted_laws();
 
-/// The fit model of a friction law. @param law one of fitted_laws() @param scales orders of magnitude for its
-/// starting points
+/// The fit model of a friction law.
+/// @param law one of fitted_laws()
+/// @param scales orders of magnitude for its starting points
 FitModel law_model(friction::FrictionModel law, const RecordScales& scales, Records records);
 
 /// The model extended by the compliance of a fixture in series with the friction contact. The logarithm of
@@ -71,8 +73,9 @@ struct LawFit : Fit {
 LawFit fit_law(Records records, const FitModel& model, double least_squares);
 
 /// Repeats the fit of a law whose fit `found` does not explain the records. It starts from many more points,
-/// scattered at random about the starting points of the law and about `found`. @param least_squares smallest
-/// sum of squares of the laws fitted before @returns the better one of the old and the new fit
+/// scattered at random about the starting points of the law and about `found`.
+/// @param least_squares smallest sum of squares of the laws fitted before
+/// @returns the better one of the old and the new fit
 LawFit search_again(Records records, const FitModel& model, double least_squares, LawFit found);
 
 /// A friction law identified from records.

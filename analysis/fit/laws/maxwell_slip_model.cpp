@@ -34,7 +34,8 @@ constexpr Eigen::Index element_dimension = element_inertia + 2;
 constexpr double never_reached = 10.0;
 
 /// Attraction parameter C of the slipping elements, N m/s. At the torques of the paper it is the default of a
-/// manifest. @param largest_torque largest |torque| of the records, N m
+/// manifest.
+/// @param largest_torque largest |torque| of the records, N m
 double attraction_at(double largest_torque) {
   constexpr double rate = 200.0;  // 1/s
   return rate * largest_torque;

@@ -110,8 +110,8 @@ Point point_of(const ContactParameters& contact, double creep_torque) {
 
 namespace {
 
-/// The coordinates of the same contact for another torque scale σ0 of the creep. @param before, after old and
-/// new σ0, N m
+/// The coordinates of the same contact for another torque scale σ0 of the creep.
+/// @param before, after old and new σ0, N m
 Point with_creep_torque(Point point, double before, double after) {
   point[log_limit] += point[creep_exponent] * std::log(after / before);
   return point;

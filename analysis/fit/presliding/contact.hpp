@@ -53,9 +53,10 @@ inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
     parameter::friction::n,
     "time_offset"};
 
-/// Converts the coordinates of a fit to parameters of the contact. @param creep_torque torque scale σ0 of the
-/// coordinates, N m. It should be near the torques at which creep was observed; otherwise limit and exponent
-/// are strongly correlated. @returns parameters whose breakaway torque is never reached
+/// Converts the coordinates of a fit to parameters of the contact.
+/// @param creep_torque torque scale σ0 of the coordinates, N m. It should be near the torques at which creep
+/// was observed; otherwise limit and exponent are strongly correlated.
+/// @returns parameters whose breakaway torque is never reached
 ContactParameters contact_at(const Point& point, double creep_torque);
 
 /// The fit model of the pre-sliding law in the coordinates of Coordinate. Its quantities, in the order of the

@@ -292,7 +292,8 @@ Freedom usual_freedom(Records records) {
 }
 
 /// Refines a fit: starting at `from`, alternates observe(), which converts readings to observations along the
-/// modelled path, and a fit to these observations. @param rounds largest number of rounds
+/// modelled path, and a fit to these observations.
+/// @param rounds largest number of rounds
 void refine(Records records, const FitPoint& from, int rounds, Freedom freedom, ContactFit& fit) {
   fit.model = followed_model(records, from, fit.setting);
   for (int round = 0; round < rounds; ++round) {
@@ -327,8 +328,8 @@ void improve_inertia(Records records, ContactFit& fit) {
 }
 
 /// Tries to improve a fit: takes a few steps with all coordinates free from the point of `fit` plus each of
-/// `changes`, and fits the best result to the end. @returns false if that is not better than `fit`, which
-/// then stays unchanged.
+/// `changes`, and fits the best result to the end.
+/// @returns false if that is not better than `fit`, which then stays unchanged.
 bool improve_from(Records records, std::span<const Point> changes, ContactFit& fit) {
   if (has_spent_effort(fit.setting, fit.effort)) return false;
   std::vector<Point> starts;

@@ -77,7 +77,8 @@ void refuse_glitches(Records records, const FitPoint& point, const FitSetting& s
 void refuse_unexplained(Records records, const ContactFit& fit, double tolerance);
 
 /// Throws a Failure if the spread of the residuals is more than 30 times the spread of the simulated
-/// replicates. @param cause a sentence that names a likely cause, without its full stop; may be empty
+/// replicates.
+/// @param cause a sentence that names a likely cause, without its full stop; may be empty
 void refuse_gross_misfit(Records records, const ContactFit& fit, const ResidualChecks& checks,
                          const std::string& cause);
 

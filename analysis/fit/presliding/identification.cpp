@@ -97,8 +97,8 @@ struct Estimation {
   const FitErrors& errors;
   const IdentificationOptions& options;
 
-  /// The estimate of a quantity. @param jointly the estimated quantities, to which this one is appended,
-  /// except for k1 + k2
+  /// The estimate of a quantity.
+  /// @param jointly the estimated quantities, to which this one is appended, except for k1 + k2
   ParameterEstimate estimate(const Quantity& quantity, std::vector<EstimatedQuantity>& jointly) const {
     const Coordinate coordinate = coordinate_of(quantity);
     if (is_sum(quantity) ? is_known(options, log_k1) && is_known(options, log_k2)
@@ -311,8 +311,8 @@ namespace {
 
 constexpr double min_exponent = 1.0;
 
-/// [replicate, quantity] Errors of the quantities, each on its own scale (Quantity::value). @param errors
-/// [replicate, coordinate] errors of the coordinates
+/// [replicate, quantity] Errors of the quantities, each on its own scale (Quantity::value).
+/// @param errors [replicate, coordinate] errors of the coordinates
 Eigen::MatrixXd errors_of(std::span<const EstimatedQuantity> quantities, const Eigen::MatrixXd& errors) {
   Eigen::MatrixXd found(errors.rows(), static_cast<Eigen::Index>(quantities.size()));
   for (std::size_t j = 0; j < quantities.size(); ++j) {

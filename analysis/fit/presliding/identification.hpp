@@ -107,8 +107,8 @@ struct IdentificationOptions {
   StageReport report{};
 };
 
-/// Throws a Failure if a record is given twice, because it would have twice its weight. @throws Failure:
-/// bad_data; bad_input if the records are of a rotary and a linear axis
+/// Throws a Failure if a record is given twice, because it would have twice its weight.
+/// @throws Failure: bad_data; bad_input if the records are of a rotary and a linear axis
 void check_different(Records records);
 
 /// Identifies a rotor and its contact from material tests, all of the same contact.

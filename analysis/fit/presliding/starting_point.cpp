@@ -41,7 +41,8 @@ RingDown largest_ring_down(Records records) {
 }
 
 /// Sum of squares of the residuals of a record's readings about their mean, in units of the readings, for the
-/// contact at the point. @param creep_torque torque scale σ0 of the coordinates, N m
+/// contact at the point.
+/// @param creep_torque torque scale σ0 of the coordinates, N m
 double misfit(const TestRecord& record, const Point& point, double creep_torque) {
   const Eigen::VectorXd path = modelled_path(record, contact_model(creep_torque), point);
   const Eigen::VectorXd residual = readings_of(record) - path;
@@ -391,7 +392,9 @@ class SlowPartsResiduals {
 };
 
 /// Fits the slow parts by the Levenberg–Marquardt method. Only those coordinates change that are in `moved`
-/// and are `free`. @param max_log_beta largest ln β @param steps largest number of steps
+/// and are `free`.
+/// @param max_log_beta largest ln β
+/// @param steps largest number of steps
 SlowFit fit_coordinates(const SlowPartsResiduals& residuals, const Point& start, const FreeCoordinates& free,
                         std::span<const Coordinate> moved, double max_log_beta, int steps) {
   Point point = start;

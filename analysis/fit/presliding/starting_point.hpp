@@ -23,8 +23,8 @@ struct CreepEstimate {
 
 /// Fits the creep law to the holds (constant torque) by least squares, over a grid of the rate α and the
 /// exponent n. At constant torque only creep moves the rotor, and the law is linear in its limit. Without
-/// visible creep α is three divided by the duration of the longest record. @param creep_torque torque scale
-/// σ0, N m
+/// visible creep α is three divided by the duration of the longest record.
+/// @param creep_torque torque scale σ0, N m
 CreepEstimate estimate_creep(Records records, double creep_torque);
 
 /// [sample] Creep extension xp of the contact, rad, if the spring torque always equals the applied torque.
@@ -41,8 +41,9 @@ struct SpringEstimate {
 
 /// Estimates the spring as the median over the slow branches. k1 is the slope of the last 40 % of the travel,
 /// k2/β the intercept of that line at the reversal, and 1/β the travel after which 63 % of the intercept are
-/// reached. @param creep creep that is subtracted from the travel first @param creep_torque torque scale σ0
-/// of the creep, N m
+/// reached.
+/// @param creep creep that is subtracted from the travel first
+/// @param creep_torque torque scale σ0 of the creep, N m
 SpringEstimate estimate_spring(Records records, const CreepEstimate& creep, double creep_torque);
 
 /// Shape of the first oscillation after a step of the torque.
@@ -64,22 +65,25 @@ motion::PlantParameters estimate_ring_down(Records records, double k1);
 /// Starting points of the joint fit, the best one first. The creep and the spring come from estimate_creep()
 /// and estimate_spring(); β, J and c from a coarse grid search around the estimates (sum of squares over all
 /// readings). If there are slow parts, the spring and its creep come from the law without inertia and damping
-/// (see fit_slow_parts()). With visible creep both results are returned. @param creep_torque torque scale σ0,
-/// N m @param known values of the coordinates that are not `free`
+/// (see fit_slow_parts()). With visible creep both results are returned.
+/// @param creep_torque torque scale σ0, N m
+/// @param known values of the coordinates that are not `free`
 std::vector<Point> starting_points(Records records, double creep_torque, const Point& known,
                                    const FreeCoordinates& free);
 
 /// Other starting points for the fit: springs with much larger or smaller β and with other values of k2/β,
-/// each with its best J and c of the grid. @param start the starting point used so far
+/// each with its best J and c of the grid.
+/// @param start the starting point used so far
 std::vector<Point> starts_with_other_softening(Records records, const Point& start, double creep_torque);
 
 /// Other starting points for the fit: springs estimated for little, some and much creep instead of the creep
 /// of the holds, each with other softening. Reason: the holds of a closed loop are short and show the motion
-/// of the loop rather than creep. @param start the starting point used so far
+/// of the loop rather than creep.
+/// @param start the starting point used so far
 std::vector<Point> starts_with_other_creep(Records records, const Point& start, double creep_torque);
 
-/// A change of a point, to be added to it. @param changes pairs of a coordinate and the amount added to it;
-/// the other coordinates do not change
+/// A change of a point, to be added to it.
+/// @param changes pairs of a coordinate and the amount added to it; the other coordinates do not change
 Point change_of(std::initializer_list<std::pair<Coordinate, double>> changes);
 
 /// Changes of a point that multiply the inertia J and the damping c, for each pair of a factor in `inertias`

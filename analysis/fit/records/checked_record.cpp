@@ -132,7 +132,8 @@ RawSeries first_samples(RawSeries part, std::size_t samples) {
   return part;
 }
 
-/// Requires that enough samples are left before the cut. @throws Failure (bad_data) if too little is left
+/// Requires that enough samples are left before the cut.
+/// @throws Failure (bad_data) if too little is left
 void check_cut(const RawSeries& series, const SlidingCut& cut) {
   if (cut.sample >= min_samples_before_sliding) return;
   refuse(

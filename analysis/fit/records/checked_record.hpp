@@ -22,13 +22,15 @@ inline parameters::AxisKind axis_of(const RawSeries& series) {
 
 /// Checks a series of torques and angles, and converts it to a record for the fit. The record ends where the
 /// contact begins to slide, and its note says so: where the series flags it, or, in a series without flags,
-/// where find_gross_sliding() finds it. @param any_magnitude whether to accept values that suggest other
-/// units @throws Failure (bad_data) with the reason if a check fails.
+/// where find_gross_sliding() finds it.
+/// @param any_magnitude whether to accept values that suggest other units
+/// @throws Failure (bad_data) with the reason if a check fails.
 TestRecord checked_record(const RawSeries& series, bool any_magnitude);
 
 /// [sample] The course of the torque over each sample interval. If the motor torque was sampled behind an
 /// amplifier of known bandwidth, its samples u and u′ at both ends of an interval are two points of one
-/// exponential, which gives the commanded torque. @param record record whose sampling intervals are used
+/// exponential, which gives the commanded torque.
+/// @param record record whose sampling intervals are used
 std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record);
 
 // Requirements on a series. Each check throws Failure (bad_data) with the place and the reason.
@@ -84,8 +86,8 @@ struct FittedRecord {
   std::vector<bool> excluded;  ///< [sample] Whether the reading is masked, so that the fit does not use it.
 };
 
-/// The readings of a record with the values of its fit. @param path [sample] fitted angle with the encoder's
-/// offset, in the record's unit
+/// The readings of a record with the values of its fit.
+/// @param path [sample] fitted angle with the encoder's offset, in the record's unit
 FittedRecord fitted_record(const TestRecord& record, const Eigen::VectorXd& path);
 
 /// Residual of a sample: reading minus fitted value, in the record's unit.

@@ -69,11 +69,12 @@ std::string script_source(std::string_view source);
 /// the page defines for light and dark mode.
 nlohmann::ordered_json figure_theme();
 
-/// The colours of a mode as CSS variables: {"--ink": "#…"}. @param mode "light" or "dark"
+/// The colours of a mode as CSS variables: {"--ink": "#…"}.
+/// @param mode "light" or "dark"
 nlohmann::ordered_json colours_of(const char* mode);
 
-/// A self-contained program for node (JavaScript) that writes a figure. @param form "svg": a picture;
-/// "specification": JSON for Vega-Lite that needs nothing else
+/// A self-contained program for node (JavaScript) that writes a figure.
+/// @param form "svg": a picture; "specification": JSON for Vega-Lite that needs nothing else
 std::string drawing_program(const Figure& figure, std::string_view form);
 
 /// A rectangular cell of a map over two swept parameters: its edges on both axes.

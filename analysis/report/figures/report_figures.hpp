@@ -105,8 +105,8 @@ using Replay = std::function<ReplayedTrial(const SampleTrial&)>;
 /// worst trial.
 std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay& replay);
 
-/// Those figures of the paper behind this program that the study can reproduce: Fig. 4 and 6 for torque
-/// levels, Fig. 7 for moves to different targets, Fig. 8 for one long move with jerks.
+/// The figures of the paper behind this program that the study can reproduce: Fig. 4 and 6 for torque levels,
+/// Fig. 7 for moves to different targets, Fig. 8 for one long move with jerks.
 std::vector<Figure> paper_figures(const ReportedStudy& reported, const Replay& replay);
 
 }  // namespace zerocount::report

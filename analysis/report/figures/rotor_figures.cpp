@@ -94,7 +94,8 @@ FigureData profile_data(const reading::StoredProfile& profile) {
 }
 
 /// Dataset of the proportion of trials that meet the question (goal or success) in equal sectors of the
-/// rotor. @param period length of the rotor's position range, rad or m
+/// rotor.
+/// @param period length of the rotor's position range, rad or m
 FigureData sector_data(const std::vector<EndOnRotor>& ends, double period, std::size_t sectors,
                        const goal::QuestionWords& words) {
   FigureData data{"sectors",

@@ -118,8 +118,8 @@ std::string value_html(const PointValues& values, std::size_t slot, std::string&
                      document::markup(values.text(slot)), drawn.empty() ? "" : ", " + drawn);
 }
 
-/// HTML row with a source of assumptions and the values that come from it. @param items values as HTML; if
-/// there are none, the row is empty
+/// HTML row with a source of assumptions and the values that come from it.
+/// @param items values as HTML; if there are none, the row is empty
 std::string source_html(const std::string& source, const std::vector<std::string>& items) {
   if (items.empty()) return "";
   std::string html = fmt::format("<tr><th>{}</th><td>", document::markup(source));

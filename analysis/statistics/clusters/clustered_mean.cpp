@@ -39,8 +39,8 @@ struct Estimate {
 };
 
 /// Mean of a resample of the clusters, with its standard error by linearisation.
-/// @param drawn [cluster] number of times that the resample contains the cluster @param clusters number m of
-/// clusters
+/// @param drawn [cluster] number of times that the resample contains the cluster
+/// @param clusters number m of clusters
 Estimate estimate_of(const Clusters& totals, const std::vector<std::int32_t>& drawn, double clusters) {
   double sum = 0.0, number = 0.0, sum_sum = 0.0, sum_number = 0.0, number_number = 0.0;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -63,7 +63,8 @@ Estimate estimate_of(const Clusters& totals, const std::vector<std::int32_t>& dr
 
 /// Studentised deviation (θ* − θ)/e* of a resample: its mean minus the sample's mean, over its standard
 /// error. Infinite for a resample without spread, NaN for one without values.
-/// @param mean the sample's mean θ @param drawn [cluster] number of times in the resample
+/// @param mean the sample's mean θ
+/// @param drawn [cluster] number of times in the resample
 double studentised(const Clusters& totals, double mean, const std::vector<std::int32_t>& drawn) {
   const Estimate estimate = estimate_of(totals, drawn, static_cast<double>(drawn.size()));
   const double difference = estimate.mean - mean;
@@ -105,8 +106,10 @@ class EverySample {
   }
 
  private:
-  /// Enumerates the ways to draw the remaining clusters. @param cluster first cluster that may still be drawn
-  /// @param left number of draws left @param weight 1/Π kᵢ! of the clusters before
+  /// Enumerates the ways to draw the remaining clusters.
+  /// @param cluster first cluster that may still be drawn
+  /// @param left number of draws left
+  /// @param weight 1/Π kᵢ! of the clusters before
   void draw(std::size_t cluster, std::int32_t left, double weight) {
     const bool is_last = cluster + 1 == drawn_.size();
     for (std::int32_t times = is_last ? left : 0; times <= left; ++times) {
@@ -128,7 +131,8 @@ class EverySample {
 };
 
 /// Studentised deviations (θ* − θ)/e* of random resamples of the clusters, sorted.
-/// @param mean the sample's mean θ @param resamples their number
+/// @param mean the sample's mean θ
+/// @param resamples their number
 std::vector<double> studentised_means(const Clusters& totals, double mean, const random::RandomStream& stream,
                                       std::int64_t resamples) {
   const std::size_t clusters = totals.sums.size();

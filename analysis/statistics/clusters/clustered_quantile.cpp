@@ -34,9 +34,9 @@ void add_repeated(Histogram<double>& histogram, std::span<const double> values) 
     if (seen.times > 0) histogram.add(seen.value, seen.times);
 }
 
-/// The effective number of independent values for bounds of a quantile, rounded down, at least 1. @param
-/// sample_quantile observed quantile; NaN: among the censored values @param tail probability beyond each
-/// bound
+/// The effective number of independent values for bounds of a quantile, rounded down, at least 1.
+/// @param sample_quantile observed quantile; NaN: among the censored values
+/// @param tail probability beyond each bound
 std::int64_t whole_values(const ClusteredSample& sample, double sample_quantile, double tail) {
   const double at = std::isnan(sample_quantile) ? largest(sample.observed()) : sample_quantile;
   const double events = adjusted_events(sample.at_most(at), tail);

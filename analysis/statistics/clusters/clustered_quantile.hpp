@@ -24,11 +24,11 @@ class ClusteredSample {
   /// Adds a cluster of `size` values: those in `observed`; the others are censored (larger than all observed
   /// ones).
   void add_cluster(const Histogram<double>& observed, std::int64_t size);
-  /// Adds a cluster of `size` values. @param observed its observed values in any order; they are sorted; the
-  /// other values are censored
+  /// Adds a cluster of `size` values.
+  /// @param observed its observed values in any order; they are sorted; the other values are censored
   void add_cluster(std::span<double> observed, std::int64_t size);
-  /// Adds clusters of one value each: the observed ones, in any order. @param censored number of further
-  /// clusters, whose only value is censored
+  /// Adds clusters of one value each: the observed ones, in any order.
+  /// @param censored number of further clusters, whose only value is censored
   void add_single_values(std::span<const double> observed, std::int64_t censored);
   /// Adds the clusters of another sample.
   ClusteredSample& operator+=(const ClusteredSample& other);

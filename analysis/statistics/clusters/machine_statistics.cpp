@@ -37,7 +37,8 @@ RankAndAllowance rank_and_allowance(std::int64_t machines, double content, doubl
 }
 
 /// Chernoff–Hoeffding lower bound: the q < y with trials·KL(y‖q) = −ln(allowance).
-/// @param y observed mean @param allowance probability of an error
+/// @param y observed mean
+/// @param allowance probability of an error
 double chernoff_lower(double y, std::int64_t trials, double allowance) {
   const double limit = -std::log(allowance) / static_cast<double>(trials);
   if (!(y > 0.0)) return 0.0;

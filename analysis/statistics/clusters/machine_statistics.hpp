@@ -90,8 +90,8 @@ struct MachineStatistics {
   MachineTolerance tolerance;
 };
 
-/// Statistics of the differences in success between machines. @param machines machines with the same number
-/// of trials, 1 or more
+/// Statistics of the differences in success between machines.
+/// @param machines machines with the same number of trials, 1 or more
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 MachineStatistics machine_statistics(std::span<const MachineTrials> machines,
                                      double confidence = summary_confidence);

@@ -25,10 +25,11 @@ void require_counts(const Successes& counts) {
 /// Probabilities P(x), x = 0 … n, that x of n trials succeed which are taken at random, without replacement,
 /// from the trials `all` (hypergeometric).
 ///
-/// By the ratio of neighbours, P(x + 1)/P(x) = (K − x)·(n − x)/((x + 1)·(N − K − n + x + 1)), from the mode
-/// outwards, where the terms fall, so that nothing overflows; then divided by their sum. This takes one
-/// multiplication per x. A library's probability function evaluates factorials of N for each x, which takes
-/// seconds for large studies.
+/// The ratio of neighbours, P(x + 1)/P(x) = (K − x)·(n − x)/((x + 1)·(N − K − n + x + 1)), gives each term
+/// from the one before. The computation starts at the mode and goes outwards, where the terms fall, so that
+/// nothing overflows; at the end all terms are divided by their sum. This takes one multiplication per x. A
+/// library's probability function evaluates factorials of N for each x, which takes seconds for large
+/// studies.
 std::vector<double> hypergeometric(std::int64_t n, const Successes& all) {
   const std::int64_t failures = all.trials - all.successes;
   const std::int64_t first = std::max<std::int64_t>(0, n - failures);
@@ -59,7 +60,8 @@ double fisher_p(const Successes& observed, const Successes& simulated) {
 }
 
 /// [x] Sum over the machines of the probability P(H_i = x) that x of n of its trials succeed, x = 0 … n.
-/// @param successes [machine] successful trials @param trials number of trials per machine
+/// @param successes [machine] successful trials
+/// @param trials number of trials per machine
 std::vector<double> mixture(std::int64_t n, std::span<const std::int64_t> successes, std::int64_t trials) {
   std::map<std::int64_t, double> machines;  // with so many successes
   for (const std::int64_t each : successes) machines[each] += 1.0;

@@ -41,8 +41,8 @@ ObservedTest fisher_test(const Successes& observed, const Successes& simulated);
 /// This is the rank test of exchangeable observations (Vovk, Gammerman and Shafer, Algorithmic Learning in a
 /// Random World, 2005, section 2.2), averaged over the choice of the n trials. p is never below 2/(R + 1): it
 /// takes 39 machines to find a difference at 5 %.
-/// @param successes [machine] number K_i of successful trials @param trials number m of trials of each
-/// simulated machine
+/// @param successes [machine] number K_i of successful trials
+/// @param trials number m of trials of each simulated machine
 /// @throws Failure (bad_data) for impossible counts, or n > m.
 ObservedTest machine_rank_test(const Successes& observed, std::span<const std::int64_t> successes,
                                std::int64_t trials);

@@ -22,7 +22,8 @@ class TrialClusters {
 
   /// Adds a trial with `size` values: those in `observed`; the others are censored (larger than all observed
   /// ones).
-  /// @param trial index of the trial @param observed observed values in any order; the call may sort them
+  /// @param trial index of the trial
+  /// @param observed observed values in any order; the call may sort them
   void add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size);
   /// Adds consecutive trials with `of_trial` values each.
   /// @param trial index of the first trial

@@ -13,7 +13,8 @@ namespace zerocount::statistics {
 /// Source: Kulisch, Computer Arithmetic and Validity (2008), section 8.
 class ExactSum {
  public:
-  /// Adds a value to the sum. @param value finite
+  /// Adds a value to the sum.
+  /// @param value finite
   void add(double value);
   void add_square(double value);
   ExactSum& operator+=(const ExactSum& other);
@@ -64,7 +65,8 @@ class ExactSum {
 };
 
 /// Sum of the squared deviations from the mean, Σ(xᵢ − x̄)² = Σxᵢ² − (Σxᵢ)²/n, rounded to the nearest double.
-/// @param squares sum of the squared values @param n number of values
+/// @param squares sum of the squared values
+/// @param n number of values
 double squared_deviations(ExactSum sum, ExactSum squares, std::int64_t n);
 
 }  // namespace zerocount::statistics

@@ -61,7 +61,8 @@ class StateWriter {
 /// of a map do not rise; from require_end() if numbers are left
 class StateReader {
  public:
-  /// @param whole integer numbers and flags @param real floating-point numbers; both must outlive the reader
+  /// @param whole integer numbers and flags
+  /// @param real floating-point numbers; both must outlive the reader
   StateReader(std::span<const std::int64_t> whole, std::span<const double> real)
       : whole_(whole), real_(real) {}
 

@@ -17,7 +17,8 @@
 
 namespace zerocount::batch {
 
-/// All inner loops of the batch engine, for one instruction set. @tparam Width number of doubles in a vector.
+/// All inner loops of the batch engine, for one instruction set.
+/// @tparam Width number of doubles in a vector.
 /// @tparam EventChains number of vectors that are processed side by side in integration steps that locate
 /// events.
 template <int Width, int EventChains>

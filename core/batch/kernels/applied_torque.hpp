@@ -14,9 +14,9 @@ template <class P>
 struct VaryingTorque {
   using Mask = typename P::Mask;
   P fixed[batch_order];  ///< Coefficients of the torque without its ripples. Exception: fixed[0] is the whole
-                         ///< torque, ripples included.
+                         /// < torque, ripples included.
   P velocity[batch_order];  ///< Coefficients of the rotor's ω·h, with h the length of the step, in the unit
-                            ///< of length of the series
+                            /// < of length of the series
   int ripples;
   P amplitude[max_lane_ripples];
   P per_travel[max_lane_ripples];  ///< Wave number q of each ripple: phase of the ripple per unit of travel
@@ -47,8 +47,8 @@ struct VaryingTorque {
     }
   }
 
-  /// Computes coefficient k of the torque's series. Must be called in ascending order of k. @param velocity_k
-  /// coefficient k of ω·h.
+  /// Computes coefficient k of the torque's series. Must be called in ascending order of k.
+  /// @param velocity_k coefficient k of ω·h.
   ZEROCOUNT_ALWAYS_INLINE P coefficient(int k, const P& velocity_k) {
     velocity[k] = velocity_k;
     P torque = fixed[k];
@@ -82,8 +82,9 @@ struct VaryingTorque {
   }
 };
 
-/// Loads the series of the torque for a step of length h (s). @param unit factor that converts a torque (N m)
-/// to the unit of the series, 1/(N m). @param travel_unit one unit of length of VaryingTorque::velocity, rad.
+/// Loads the series of the torque for a step of length h (s).
+/// @param unit factor that converts a torque (N m) to the unit of the series, 1/(N m).
+/// @param travel_unit one unit of length of VaryingTorque::velocity, rad.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, const P& h, const P& unit,
                                          const P& travel_unit, VaryingTorque<P>& torque) {
@@ -144,7 +145,8 @@ ZEROCOUNT_ALWAYS_INLINE P torque_rate(const BatchState& batch, const At& at, con
 }
 
 /// Whether it is certain that a polynomial, whose values at 0 and 1 have opposite signs, has exactly one zero
-/// in between: it is monotonic, or its curvature keeps its sign. @param c coefficients, [0] to [order].
+/// in between: it is monotonic, or its curvature keeps its sign.
+/// @param c coefficients, [0] to [order].
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask crosses_once(const P* c, int order) {
   P third(0.0);
@@ -170,8 +172,8 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector theta_of(const BatchState& batch, co
                 at.load(m.hook) + at.load(m.elongation) + at.load(m.extension));
 }
 
-/// Adds the sinusoidal lines of a vibration torque to its Taylor series about the present instant. @param
-/// vibration coefficients of the series in t/T, N m.
+/// Adds the sinusoidal lines of a vibration torque to its Taylor series about the present instant.
+/// @param vibration coefficients of the series in t/T, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void add_lines(const BatchState& batch, const At& at, P* vibration) {
   const CourseLanes& c = batch.course;

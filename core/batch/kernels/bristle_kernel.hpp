@@ -28,7 +28,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask rests_on_bristle(const BatchState& batc
 }
 
 /// Moves the lanes whose rotor is at rest on its bristle to their next stop, the next instant at which their
-/// torque may change. @returns the lanes that are not at rest.
+/// torque may change.
+/// @returns the lanes that are not at rest.
 template <class P>
 LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   MotionLanes& m = batch.motion;

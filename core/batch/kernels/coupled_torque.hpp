@@ -15,10 +15,10 @@ struct ForcedTorque {
   static constexpr bool forced = true;
   Forcing forcing;
   VaryingTorque<P> alone;    ///< Torque on the rotor without the coupling torque of the second mass; used
-                             ///< only if it varies.
+                             /// < only if it varies.
   P twist[batch_order + 1];  ///< Coefficients of the coupling's twist δ, rad
   P omega[batch_order + 1];  ///< Coefficients of ωL·h, with ωL the velocity of the second mass and h the
-                             ///< step, rad
+                             /// < step, rad
   P change;       ///< Σ k·|coefficient k|, a bound of the torque's rate, in the unit of the torque per step
   P unit;         ///< Factor that converts a torque (N m) to the unit of the torque's coefficients, 1/(N m)
   P travel_unit;  ///< One unit of the coefficients of the rotor's ω·h, rad
@@ -27,7 +27,8 @@ struct ForcedTorque {
   P acceleration;  ///< h²/JL, which converts the coupling torque to an acceleration over the step, rad/(N m)
 
   /// Computes coefficient k of the torque's series. Must be called in ascending order of k. Coefficient 0
-  /// leaves out a constant torque. @param velocity_k coefficient k of the rotor's ω·h.
+  /// leaves out a constant torque.
+  /// @param velocity_k coefficient k of the rotor's ω·h.
   ZEROCOUNT_ALWAYS_INLINE P coefficient(int k, const P& velocity_k) {
     P torque(0.0);
     if (forcing.varies) torque = alone.coefficient(k, velocity_k);
@@ -66,9 +67,9 @@ template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState&, const At&, Unforced, const P&, const P&, const P&,
                                          ConstantTorque&) {}
 
-/// Loads the series of the torque on the rotor for a step of length h (s). @param unit factor that converts a
-/// torque (N m) to the unit of the series, 1/(N m). @param travel_unit one unit of the coefficients of the
-/// rotor's ω·h, rad.
+/// Loads the series of the torque on the rotor for a step of length h (s).
+/// @param unit factor that converts a torque (N m) to the unit of the series, 1/(N m).
+/// @param travel_unit one unit of the coefficients of the rotor's ω·h, rad.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, Forcing forcing, const P& h,
                                          const P& unit, const P& travel_unit, ForcedTorque<P>& torque) {
@@ -86,8 +87,8 @@ ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, 
   torque.acceleration = h * h * at.load(l.per_inertia);
 }
 
-/// Torque on the rotor at this instant, including the coupling torque of a second mass, N m. @param omega
-/// velocity ω of the rotor, rad/s.
+/// Torque on the rotor at this instant, including the coupling torque of a second mass, N m.
+/// @param omega velocity ω of the rotor, rad/s.
 template <class P, class At, class F>
 ZEROCOUNT_ALWAYS_INLINE P torque_on_rotor(const BatchState& batch, const At& at, F forcing, const P& omega) {
   const P torque = at.load(batch.motion.torque);
@@ -97,8 +98,9 @@ ZEROCOUNT_ALWAYS_INLINE P torque_on_rotor(const BatchState& batch, const At& at,
 }
 
 /// Direction in which the rotor moves from this instant on: the sign of ω or, at ω = 0, of its first non-zero
-/// derivative (motion::heading_under). @param omega ω, rad/s. @param excess torque on the rotor minus
-/// friction, N m.
+/// derivative (motion::heading_under).
+/// @param omega ω, rad/s.
+/// @param excess torque on the rotor minus friction, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P heading_under(const BatchState& batch, const At& at, Forcing forcing,
                                         const P& omega, const P& excess) {
@@ -108,7 +110,8 @@ ZEROCOUNT_ALWAYS_INLINE P heading_under(const BatchState& batch, const At& at, F
 }
 
 /// Mask of the lanes whose second mass is quiet: the coupling torque of any oscillation stays below `torque`
-/// (see motion::is_quiet). @param steady coupling torque without the oscillation, N m.
+/// (see motion::is_quiet).
+/// @param steady coupling torque without the oscillation, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask load_is_quiet(const BatchState& batch, const At& at, const P& omega,
                                                        const P& torque, const P& steady) {

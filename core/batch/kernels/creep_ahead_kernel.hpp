@@ -67,8 +67,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask goes_on_ahead(const BatchState& batch, 
          (at.load(m.torque) == at.load(m.rest_torque)) & (at.load(batch.time.samples_to_stop) == P(1.0));
 }
 
-/// Moves one vector of lanes at rest to the next stop, as creep_ahead_kernel() does. @returns mask of the
-/// lanes that it has moved.
+/// Moves one vector of lanes at rest to the next stop, as creep_ahead_kernel() does.
+/// @returns mask of the lanes that it has moved.
 template <class At>
 __attribute__((noinline)) typename At::Vector::Mask creep_ahead(BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -79,8 +79,8 @@ __attribute__((noinline)) typename At::Vector::Mask creep_ahead(BatchState& batc
 }
 
 /// Moves lanes at rest to their next stop (the next sample) by the polynomial description of their slow
-/// motion (CreepAheadLanes), as long as their torque stays and the description lasts. @returns the lanes that
-/// it has moved.
+/// motion (CreepAheadLanes), as long as their torque stays and the description lasts.
+/// @returns the lanes that it has moved.
 template <class V>
 LaneSet creep_ahead_kernel(BatchState& batch, const LaneSet& lanes) {
   LaneSet moved;

@@ -77,7 +77,8 @@ __attribute__((noinline)) typename At::Vector::Mask drive(BatchState& batch, con
 
 /// Passes the torques of the converter at a sample through a delay of whole samples and through the
 /// amplifier, as loop::Drive does. The next stop of a lane whose motor's torque may change is the next
-/// sample, which may be late. @returns the lanes whose torque varies until then.
+/// sample, which may be late.
+/// @returns the lanes whose torque varies until then.
 template <class V>
 LaneSet drive_kernel(BatchState& batch, const LaneSet& lanes) {
   LaneSet varying;

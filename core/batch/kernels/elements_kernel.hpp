@@ -46,8 +46,8 @@ struct LaneElements {
   }
 };
 
-/// Applies the rest rule of friction::GmsFriction to one vector of lanes. @returns mask of the lanes whose
-/// rotor is at rest.
+/// Applies the rest rule of friction::GmsFriction to one vector of lanes.
+/// @returns mask of the lanes whose rotor is at rest.
 template <class At>
 ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask elements_rest(BatchState& batch, const At& at,
                                                                 Forcing forcing) {
@@ -65,7 +65,8 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask elements_rest(BatchState& batc
 }
 
 /// Moves the lanes whose rotor is at rest under a constant torque to their next stop, the next instant at
-/// which their torque may change. @returns the lanes that are not at rest.
+/// which their torque may change.
+/// @returns the lanes that are not at rest.
 template <class P>
 LaneSet elements_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   MotionLanes& m = batch.motion;
@@ -90,11 +91,11 @@ LaneSet elements_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing fo
 template <class P>
 using ElementSeries = friction::GmsSeriesOf<P[batch_order + 1]>;
 
-/// Finds the first instant within the step at which a sticking element begins to slip. @param x fraction of
-/// the step; where an element slips earlier, it is reduced to that instant. @param exact lanes in which the
-/// friction level is known as accurately as the torque of the elements. @returns the lanes in which the first
-/// slip is uncertain: the margin of an element may have a second zero, or the level is not accurate and an
-/// element is near it.
+/// Finds the first instant within the step at which a sticking element begins to slip.
+/// @param x fraction of the step; where an element slips earlier, it is reduced to that instant.
+/// @param exact lanes in which the friction level is known as accurately as the torque of the elements.
+/// @returns the lanes in which the first slip is uncertain: the margin of an element may have a second zero,
+/// or the level is not accurate and an element is near it.
 template <class At, class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask find_first_slip(const LaneElements<P>& elements, const P& coulomb,
                                                          const At& at, const ElementSeries<P>& s,
@@ -128,8 +129,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask find_first_slip(const LaneElements<P>& 
   return unfit;
 }
 
-/// Advances the torques of the elements to the fraction x of the step, in the lanes of step.done. @returns
-/// mask of the lanes in which all elements slip.
+/// Advances the torques of the elements to the fraction x of the step, in the lanes of step.done.
+/// @returns mask of the lanes in which all elements slip.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask move(LaneElements<P>& elements, const ElementSeries<P>& s,
                                               const friction::GmsSums<P>& sums, const VelocityStep<P>& step) {

@@ -6,8 +6,9 @@
 namespace zerocount::batch {
 
 /// Moves each lane without friction over one sample, to its next stop, by the exact linear map FreeLanes
-/// (friction::free_motion). @param varies whether the torque is CourseLanes::settled plus an exponentially
-/// decaying lag; otherwise it is constant.
+/// (friction::free_motion).
+/// @param varies whether the torque is CourseLanes::settled plus an exponentially decaying lag; otherwise it
+/// is constant.
 template <class V>
 void free_kernel(BatchState& batch, const LaneSet& lanes, bool varies) {
   for_each_stretch<V>(lanes, [&]<class At>(const At& at) {

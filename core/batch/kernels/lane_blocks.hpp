@@ -11,7 +11,7 @@ struct ControlInput {
   using Mask = typename P::Mask;
   P error, last_error;  ///< Error (target − count) at this sample and at the last sample, counts
   P count, change;  ///< Count of the encoder at this sample, and its change since the last sample, counts. At
-                    ///< the first sample CountsBefore gives the change.
+                    /// < the first sample CountsBefore gives the change.
   Mask counted;     ///< Mask of the lanes that have had a sample before this one
 };
 
@@ -22,7 +22,7 @@ struct Compensated {
   P acting_error;  ///< Error e′ after the dead zone, counts
   Mask stands;     ///< Mask of the lanes in which the standstill gains replace the PID gains
   Mask held;       ///< Mask of the lanes in which the torque is held, so that the controller's states stay as
-                   ///< they are
+                   /// < they are
 };
 
 /// Stores a new value in `lanes`, except in the lanes of `held`, whose torque is held.
@@ -152,8 +152,10 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask has_memory(const BatchState& batch, con
 }
 
 /// Stores the rounding error of this sample in the lanes with a sigma-delta converter; it is added to the
-/// next torque. @param torque wanted torque, N m. @param converted torque of the rounded code, N m. @param
-/// clipped lanes whose code was out of range.
+/// next torque.
+/// @param torque wanted torque, N m.
+/// @param converted torque of the rounded code, N m.
+/// @param clipped lanes whose code was out of range.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void keep_remainder(BatchState& batch, const At& at, const P& torque,
                                             const P& converted, const typename P::Mask& clipped) {

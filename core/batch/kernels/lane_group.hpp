@@ -61,8 +61,9 @@ class LaneCollection {
     for (int p = 0; p < P::lanes / width; ++p) to.part[p] = collect<width>(of, lane_ + p * width);
   }
   /// Gathers the values of several lanes into a vector register. A detour through memory would be slower,
-  /// because a vector load waits for the scalar stores before it. @param of one value per lane. @param lane
-  /// indices of the lanes.
+  /// because a vector load waits for the scalar stores before it.
+  /// @param of one value per lane.
+  /// @param lane indices of the lanes.
   template <int Width>
   static ZEROCOUNT_ALWAYS_INLINE auto collect(const double* of, const int* lane) {
     using Real = typename VectorOf<Width>::Real;

@@ -27,8 +27,8 @@ struct LaneSet {
   ZEROCOUNT_ALWAYS_INLINE int first() const {
     return words[0] != 0 ? __builtin_ctzll(words[0]) : 64 + __builtin_ctzll(words[1]);
   }
-  /// Membership of the lanes base to base + width − 1 in the set, one bit each. @param base a multiple of
-  /// `width`.
+  /// Membership of the lanes base to base + width − 1 in the set, one bit each.
+  /// @param base a multiple of `width`.
   ZEROCOUNT_ALWAYS_INLINE unsigned stretch(int base, int width) const {
     return static_cast<unsigned>(words[base / 64] >> (base % 64)) & ((1U << width) - 1U);
   }

@@ -5,8 +5,8 @@
 
 namespace zerocount::batch {
 
-/// The set of lanes for which `mask_of` is true. @param mask_of gives the mask of the consecutive lanes of
-/// one vector.
+/// The set of lanes for which `mask_of` is true.
+/// @param mask_of gives the mask of the consecutive lanes of one vector.
 template <class P, class MaskOf>
 ZEROCOUNT_ALWAYS_INLINE LaneSet lanes_where(MaskOf mask_of) {
   static_assert(max_lanes % P::lanes == 0);

@@ -9,7 +9,8 @@ namespace zerocount::batch {
 // The random numbers of running trials (core/random/random_numbers.hpp), one in each lane.
 
 /// The random number generator Philox4x32-10 in each lane. Counter and key words are in the lower 32 bits of
-/// their elements; the upper bits are not used. @returns output word 0 + 2³²·word 1.
+/// their elements; the upper bits are not used.
+/// @returns output word 0 + 2³²·word 1.
 template <int Width>
 ZEROCOUNT_ALWAYS_INLINE typename VectorOf<Width>::Bits philox(typename VectorOf<Width>::Bits counter[4],
                                                               typename VectorOf<Width>::Bits key[2]) {
@@ -31,8 +32,8 @@ ZEROCOUNT_ALWAYS_INLINE typename VectorOf<Width>::Bits philox(typename VectorOf<
 }
 
 /// Sets `uniform` to the uniform random number in (0, 1) with number `k` of each lane's stream and trial, as
-/// open_uniform(random_bits_at(stream, trial, k)) gives it. @param k a whole number below 2⁴⁰, usually the
-/// number of the sample.
+/// open_uniform(random_bits_at(stream, trial, k)) gives it.
+/// @param k a whole number below 2⁴⁰, usually the number of the sample.
 template <int Width, int Chains, class At>
 ZEROCOUNT_ALWAYS_INLINE void set_uniform_at(const RandomLanes& r, const At& at, const Simd<Width, Chains>& k,
                                             Simd<Width, Chains>& uniform) {
@@ -65,7 +66,8 @@ struct NoisyReading {
 };
 
 /// Reads the noisy fine encoder.
-/// @param angle true angle at the encoder, rad. @param k sample number from the start of the trial.
+/// @param angle true angle at the encoder, rad.
+/// @param k sample number from the start of the trial.
 /// @param last_state w of the sample before.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE NoisyReading<P> noisy_reading(const BatchState& batch, const At& at, const P& angle,

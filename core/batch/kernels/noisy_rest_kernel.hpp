@@ -6,8 +6,8 @@
 
 namespace zerocount::batch {
 
-/// Passes over samples of one vector of lanes at rest, as noisy_rest_kernel() does. @returns mask of the
-/// lanes that have moved.
+/// Passes over samples of one vector of lanes at rest, as noisy_rest_kernel() does.
+/// @returns mask of the lanes that have moved.
 template <class At>
 __attribute__((noinline)) typename At::Vector::Mask noisy_rest(BatchState& batch, const At& at,
                                                                const LaneSet& active, int max_samples) {
@@ -59,8 +59,9 @@ __attribute__((noinline)) typename At::Vector::Mask noisy_rest(BatchState& batch
 /// the last count, so that the torque stays. A lane stops at the first sample with another count, at the last
 /// sample of the move, at the end of the description of its slow motion (CreepAheadLanes), or after
 /// `max_samples` samples. A vector stops once fewer than three quarters of its `active` lanes go on, because
-/// the others wait for them. @returns the lanes that it has moved. A lane that is then between two samples
-/// has passed at least one sample.
+/// the others wait for them.
+/// @returns the lanes that it has moved. A lane that is then between two samples has passed at least one
+/// sample.
 template <class V>
 LaneSet noisy_rest_kernel(BatchState& batch, const LaneSet& lanes, const LaneSet& active, int max_samples) {
   LaneSet moved;

@@ -7,8 +7,8 @@
 
 namespace zerocount::batch {
 
-/// Torque of the PID law without further controller blocks, N m. Updates the integral. @param last_count
-/// count at the last sample.
+/// Torque of the PID law without further controller blocks, N m. Updates the integral.
+/// @param last_count count at the last sample.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P pid_torque(BatchState& batch, const At& at, const ControlInput<P>& in,
                                      const P& last_count) {
@@ -21,7 +21,8 @@ ZEROCOUNT_ALWAYS_INLINE P pid_torque(BatchState& batch, const At& at, const Cont
   return torque;
 }
 
-/// Adds sample k of the moves to the measures of their error bands. @param size |e|, counts.
+/// Adds sample k of the moves to the measures of their error bands.
+/// @param size |e|, counts.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void measure_bands(MeasureLanes& q, const At& at, const P& k, const P& size) {
   for (BandLanes& lanes : q.bands) {
@@ -35,8 +36,9 @@ ZEROCOUNT_ALWAYS_INLINE void measure_bands(MeasureLanes& q, const At& at, const 
   }
 }
 
-/// Reads the noisy fine encoder at this sample, and updates its noise. @param angle true angle at the
-/// encoder, rad. @returns the count.
+/// Reads the noisy fine encoder at this sample, and updates its noise.
+/// @param angle true angle at the encoder, rad.
+/// @returns the count.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P noisy_count(BatchState& batch, const At& at, const P& angle) {
   NoiseLanes& n = batch.noise;
@@ -154,9 +156,10 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
 }
 
 /// Processes one sampling instant of each lane: reads the encoder, runs the controller, converts the torque,
-/// and updates the measures of the move. @tparam decider code that decides the torque. @tparam noisy whether
-/// the fine encoder has noise. Reports the events jerk_changes, count_changes, diverges and driven, and
-/// beyond_kernel where the encoder cannot count θ.
+/// and updates the measures of the move.
+/// @tparam decider code that decides the torque.
+/// @tparam noisy whether the fine encoder has noise. Reports the events jerk_changes, count_changes, diverges
+/// and driven, and beyond_kernel where the encoder cannot count θ.
 template <class V, Decider decider, bool noisy>
 void sample_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

@@ -66,7 +66,8 @@ ZEROCOUNT_ALWAYS_INLINE P curvature_bound(const P* c, int order) {
 }
 
 /// Whether a polynomial surely keeps its sign on [0, 1], given equal signs of its values `at_start` and
-/// `at_end`: it is farther from 0 than its curvature can take it, or monotonic. @param slope at the start.
+/// `at_end`: it is farther from 0 than its curvature can take it, or monotonic.
+/// @param slope at the start.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask keeps_sign(const P& at_start, const P& at_end, const P& slope,
                                                     const P& curvature) {
@@ -118,8 +119,9 @@ struct NewtonSearch {
   Mask open;  ///< Mask of the lanes whose iteration has not converged
 
   /// One iteration: goes to the Newton iterate `newton`, or bisects where that leaves the bracket or
-  /// converges slowly. @param before whether the root is above the present x. @param close change of x whose
-  /// square is below rounding; a smaller change ends the iteration of a lane.
+  /// converges slowly.
+  /// @param before whether the root is above the present x.
+  /// @param close change of x whose square is below rounding; a smaller change ends the iteration of a lane.
   ZEROCOUNT_ALWAYS_INLINE void step(const P& newton, const Mask& before, const P& close) {
     low = select(before, x, low);
     high = select(before, high, x);
@@ -135,8 +137,8 @@ struct NewtonSearch {
 constexpr int max_newton_steps = 60;
 
 /// The root between 0 and `end` of the polynomial with the coefficients c[0…order], which has opposite signs
-/// at both ends. Starts from the root of the secant. Computed for the lanes of `wanted`. @param at_start,
-/// at_end values of the polynomial at 0 and at `end`.
+/// at both ends. Starts from the root of the secant. Computed for the lanes of `wanted`.
+/// @param at_start, at_end values of the polynomial at 0 and at `end`.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start, const P& at_end,
                                        const P& end, const typename P::Mask& wanted) {
@@ -173,7 +175,8 @@ ZEROCOUNT_ALWAYS_INLINE P rough_zero(const P* c, const P& at_end, const typename
 /// The zero of the polynomial with the coefficients c[0…order] on (0, 1). In the lanes of `from_zero` the
 /// polynomial is zero at 0, and the zero of the polynomial divided by x is found. An error of its position
 /// enters the motion squared, because the velocity at a reversal is zero.
-/// @param at_start the value at 0, or the slope in the lanes of `from_zero`. @param at_end the value at 1.
+/// @param at_start the value at 0, or the slope in the lanes of `from_zero`.
+/// @param at_end the value at 1.
 /// @param wanted lanes to compute.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P next_zero(const P* c, int order, const P& at_start, const P& at_end,
@@ -201,7 +204,9 @@ ZEROCOUNT_ALWAYS_INLINE P torque_power(const P& torque, const P& exponent) {
 
 /// Coefficient k ≥ 1 of the series of |σ|ⁿ, given the coefficients of σ up to k and the coefficients of |σ|ⁿ
 /// up to k − 1. σ must not be 0 at the start.
-/// @param torque, power coefficients of σ and of |σ|ⁿ. @param exponent n. @param per_start 1/σ at the start.
+/// @param torque, power coefficients of σ and of |σ|ⁿ.
+/// @param exponent n.
+/// @param per_start 1/σ at the start.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P torque_power_coefficient(const P* torque, const P* power, const P& exponent,
                                                    const P& per_start, int k) {

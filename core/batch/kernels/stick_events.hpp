@@ -53,8 +53,8 @@ ZEROCOUNT_ALWAYS_INLINE ContactEvents<P> events_passed(const BatchState& batch, 
           step.creeping & (~(remaining_creep > zero) | (step.torque_sign * step.torque <= zero))};
 }
 
-/// Whether the hook's torque may reach the breakaway torque within the step. @param at_ends larger absolute
-/// value of the hook's torque at both ends of the step, N m.
+/// Whether the hook's torque may reach the breakaway torque within the step.
+/// @param at_ends larger absolute value of the hook's torque at both ends of the step, N m.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_break_away_within(const StickStep<P>& step, const P& at_ends) {
   P hook[batch_order + 1];

@@ -10,8 +10,8 @@
 namespace zerocount::batch {
 
 /// Length (s), at most `longest`, of a step of a motion far above the Stribeck velocity that decelerates by
-/// at most `slowing` (rad/s²). The step ends where the Stribeck curve begins to matter. @param speed |ω|,
-/// rad/s.
+/// at most `slowing` (rad/s²). The step ends where the Stribeck curve begins to matter.
+/// @param speed |ω|, rad/s.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P fast_step(const P& speed, const P& stribeck_velocity, const P& slowing,
                                     const P& longest) {
@@ -20,8 +20,8 @@ ZEROCOUNT_ALWAYS_INLINE P fast_step(const P& speed, const P& stribeck_velocity, 
 }
 
 /// Length (s) of a step in which (ω/ωs)² changes by about 4; more at velocities far above the Stribeck
-/// velocity ωs, where exp(−(ω/ωs)²) is negligible. @param acceleration absolute acceleration of the rotor,
-/// rad/s².
+/// velocity ωs, where exp(−(ω/ωs)²) is negligible.
+/// @param acceleration absolute acceleration of the rotor, rad/s².
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P stribeck_step(const P& omega, const P& acceleration, const P& stribeck_velocity,
                                         const P& per_velocity_squared) {
@@ -30,8 +30,8 @@ ZEROCOUNT_ALWAYS_INLINE P stribeck_step(const P& omega, const P& acceleration, c
   return max(P(4.0), P(0.5) * (far - P(23.0))) / changing;
 }
 
-/// Whether exp(−(ω/ωs)²) may grow too much within the step for its power series to be accurate. @param
-/// exponent series of −(ω/ωs)².
+/// Whether exp(−(ω/ωs)²) may grow too much within the step for its power series to be accurate.
+/// @param exponent series of −(ω/ωs)².
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const P* exponent) {
   P growth = max(exponent[batch_order - 1], P(0.0));
@@ -41,8 +41,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const P* exponent) {
 }
 
 /// Whether a fast motion surely stays above the velocity at which the Stribeck curve begins to matter,
-/// throughout a step of h (s). It must be above that velocity at the start. @param velocity the series of
-/// ω·h.
+/// throughout a step of h (s). It must be above that velocity at the start.
+/// @param velocity the series of ω·h.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask stays_fast(const P* velocity, const P& stribeck_velocity,
                                                     const P& h) {
@@ -65,7 +65,7 @@ template <class P>
 struct VelocityStep {
   using Mask = typename P::Mask;
   P time_to_stop;      ///< Time from the start of the step to the lane's next stop, at which its torque may
-                       ///< change, s
+                       /// < change, s
   P h;                 ///< Length of the full step, s
   P x;                 ///< Fraction of the full step that is used, 0 to 1
   P truncation_error;  ///< Estimate of the truncation error, rad
@@ -78,9 +78,10 @@ struct VelocityStep {
 
 /// Expands a motion into power series in the fraction of a step of length h (s), as motion::motion_series
 /// does in time.
-/// @param torque torque on the rotor at the start, N m. @param per_inertia 1/J. @param law friction law:
-/// receives coefficient k of the torque on the rotor, computes its own coefficients k, and returns
-/// coefficient k of the torque that accelerates the rotor.
+/// @param torque torque on the rotor at the start, N m.
+/// @param per_inertia 1/J.
+/// @param law friction law: receives coefficient k of the torque on the rotor, computes its own coefficients
+/// k, and returns coefficient k of the torque that accelerates the rotor.
 template <class P, class Series, class Applied, class Law>
 ZEROCOUNT_ALWAYS_INLINE void expand_motion(Series& s, Applied& applied, const P& h, const P& torque,
                                            const P& per_inertia, Law law) {
@@ -105,7 +106,8 @@ ZEROCOUNT_ALWAYS_INLINE auto last_terms_of(const Series& s, const Applied& appli
 }
 
 /// Creates a step whose full length h (s) is used, and marks it as too long where the truncation error (rad)
-/// exceeds the error allowed. @param time_to_stop time to the lane's next stop, s.
+/// exceeds the error allowed.
+/// @param time_to_stop time to the lane's next stop, s.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE VelocityStep<P> velocity_step(const BatchState& batch, const At& at,
                                                       const P& time_to_stop, const P& h,
@@ -120,9 +122,11 @@ ZEROCOUNT_ALWAYS_INLINE VelocityStep<P> velocity_step(const BatchState& batch, c
   return step;
 }
 
-/// Sets step.halts in the lanes whose velocity ω comes to 0 within the step. @returns the lanes in which that
-/// is uncertain, because ω may have two zeros within the step (or ω/t, if ω starts at 0). @param velocity
-/// series of ω·h. @param careful whether to check also the lanes in which the signs at both ends differ.
+/// Sets step.halts in the lanes whose velocity ω comes to 0 within the step.
+/// @returns the lanes in which that is uncertain, because ω may have two zeros within the step (or ω/t, if ω
+/// starts at 0).
+/// @param velocity series of ω·h.
+/// @param careful whether to check also the lanes in which the signs at both ends differ.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask halts_unsurely(const P* velocity, bool careful,
                                                         VelocityStep<P>& step) {
@@ -151,8 +155,9 @@ ZEROCOUNT_ALWAYS_INLINE void end_at_halt(const P* velocity, const At& at, Veloci
   step.x = select(step.halts, halt, P(1.0));
 }
 
-/// Velocity ω at the end of the step, rad/s. @param velocity the series of ω·h. @param omega ω at the start
-/// of the step, rad/s.
+/// Velocity ω at the end of the step, rad/s.
+/// @param velocity the series of ω·h.
+/// @param omega ω at the start of the step, rad/s.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P omega_after(const VelocityStep<P>& s, const P* velocity, const P& omega) {
   return select(s.done, select(s.halts, P(0.0), value_of(velocity, batch_order, s.x) / s.h), omega);
@@ -173,8 +178,8 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const V
   at.store(time.steps, at.load(time.steps) + P(1.0));
 }
 
-/// Stores rotor angle, velocity and second mass at the end of the step. @param omega velocity ω at the start
-/// of the step, rad/s.
+/// Stores rotor angle, velocity and second mass at the end of the step.
+/// @param omega velocity ω at the start of the step, rad/s.
 template <class P, class At, class Series, class Applied>
 ZEROCOUNT_ALWAYS_INLINE void store_motion(BatchState& batch, const At& at, const Series& s,
                                           const Applied& applied, const P& omega,

@@ -27,7 +27,8 @@ std::array<trial::BandMeasures<double>, trial::max_error_bands> bands_of(const M
   return bands;
 }
 
-/// Computes the outcome of the lane's move, which ends now. @param stopped whether the move has diverged.
+/// Computes the outcome of the lane's move, which ends now.
+/// @param stopped whether the move has diverged.
 trial::MoveOutcome outcome_of(const BatchState& batch, int lane, LaneTrial& trial, bool stopped) {
   const trial::TrialParameters& p = *trial.parameters;
   const MeasureLanes& q = batch.measures;

@@ -20,8 +20,8 @@ class LaneLoop {
  public:
   explicit LaneLoop(const trial::TrialParameters& parameters);
 
-  /// Starts move `number` towards `target` (counts). @param first_sample number of the move's first sample,
-  /// counted from the start of the trial.
+  /// Starts move `number` towards `target` (counts).
+  /// @param first_sample number of the move's first sample, counted from the start of the trial.
   void start_move(std::size_t number, std::int64_t target, std::int64_t first_sample);
 
   struct Decision {
@@ -31,9 +31,10 @@ class LaneLoop {
     bool may_stay;  ///< Whether the torque stays as it is while count and error stay 0
     bool stays;     ///< Whether the torque stays until the end of the move, and no random number is drawn
   };
-  /// Runs encoders, controller and converter at sample i of the move. @param theta angle of the mass that the
-  /// encoder reads, rad. @param other angle of the other mass, rad. @returns the decision; empty if the
-  /// encoder cannot count θ, or the controller gives no finite torque.
+  /// Runs encoders, controller and converter at sample i of the move.
+  /// @param theta angle of the mass that the encoder reads, rad.
+  /// @param other angle of the other mass, rad.
+  /// @returns the decision; empty if the encoder cannot count θ, or the controller gives no finite torque.
   std::optional<Decision> sample(std::int64_t i, double theta, double other);
 
   /// Whether the trial has torque levels in place of targets, so that the loop is open and errors are not

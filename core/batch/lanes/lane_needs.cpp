@@ -73,7 +73,8 @@ std::string_view lacking(const loop::ControllerParameters& controller,
 }
 
 /// The feature of a disturbance that the vectorised lanes lack, as a noun phrase; empty if they have all of
-/// them. @param max_frequency highest frequency of a vibration whose series over a sample is accurate, Hz.
+/// them.
+/// @param max_frequency highest frequency of a vibration whose series over a sample is accurate, Hz.
 std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMotion motion,
                          double max_frequency) {
   [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = disturbance;

@@ -9,8 +9,9 @@ namespace zerocount::batch {
 namespace {
 
 /// The time (s) in which the rotor angle θ moves by `distance` (rad, positive) in the direction of creep;
-/// infinite if it never does. @param stiffness present stiffness of the spring, N m/rad; with it the result
-/// is accurate to a small fraction of a sample.
+/// infinite if it never does.
+/// @param stiffness present stiffness of the spring, N m/rad; with it the result is accurate to a small
+/// fraction of a sample.
 double time_to_creep(const friction::CreepAtRest& creep, double distance, double stiffness) {
   // The spring stretches as the damper's torque falls, in proportion to the growth of creep.
   const double per_creep = creep.s1 * creep.g1 / stiffness;
@@ -127,8 +128,8 @@ constexpr int samples_one_by_one = 4;
 constexpr double max_span = 256.0;  // samples
 constexpr double min_span = 8.0;    // fewer are not worth the description
 
-/// Stores the cubic polynomial through the values a, b, c, d at 0, 1/3, 2/3 and 1 in the lane. @returns its
-/// value at ½.
+/// Stores the cubic polynomial through the values a, b, c, d at 0, 1/3, 2/3 and 1 in the lane.
+/// @returns its value at ½.
 double store_cubic(Lanes (&to)[4], int lane, double a, double b, double c, double d) {
   const double first = b - a;
   const double second = (c - b) - first;
@@ -154,8 +155,8 @@ SlowMotion slow_motion(const LanePlant& plant) {
           motion.creep.hardening - rest.creep.sign * oscillation.extension};
 }
 
-/// Describes the slow motion at rest over the next samples by cubic polynomials (CreepAheadLanes). @returns
-/// whether they are accurate to 1e-9 count.
+/// Describes the slow motion at rest over the next samples by cubic polynomials (CreepAheadLanes).
+/// @returns whether they are accurate to 1e-9 count.
 bool describe_ahead(BatchState& batch, int lane, LaneTrial& trial, double torque) {
   CreepAhead& ahead = trial.ahead;
   if (ahead.span < min_span) return false;
@@ -191,7 +192,8 @@ bool describe_ahead(BatchState& batch, int lane, LaneTrial& trial, double torque
 }
 
 /// Describes the slow motion of the lane at rest from now on by polynomials, and follows it to the next stop,
-/// one sample ahead. @returns whether there is a description.
+/// one sample ahead.
+/// @returns whether there is a description.
 bool follow_ahead(RunningBatch& run, int lane, double torque) {
   BatchState& batch = run.state;
   LaneTrial& trial = run.trial_of(lane);
@@ -221,8 +223,8 @@ bool is_late_and_steady(const RunningBatch& run, int lane) {
          run.state.loop.steady[lane] != 0.0 && !run.lanes.noisy.contains(lane);
 }
 
-/// The next `max_samples` sampling instants of the lane. @param late drive of a lane with late samples;
-/// otherwise null.
+/// The next `max_samples` sampling instants of the lane.
+/// @param late drive of a lane with late samples; otherwise null.
 InstantsAhead instants_ahead(const BatchState& batch, int lane, const LaneDrive* late, double max_samples) {
   const double to_last = batch.time.time_to_stop[lane];
   const double sample_time = batch.time.sample_time[lane];

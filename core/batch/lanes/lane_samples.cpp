@@ -61,8 +61,8 @@ void sample(RunningBatch& run, void (*kernel)(BatchState&, const LaneSet&), cons
   }
 }
 
-/// Lets the LaneLoop of each lane in `due` decide its torque. @returns the lanes whose LaneLoop gave a
-/// decision.
+/// Lets the LaneLoop of each lane in `due` decide its torque.
+/// @returns the lanes whose LaneLoop gave a decision.
 LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
   LoopLanes& l = run.state.loop;
   LaneSet decided = due;

@@ -11,8 +11,8 @@ namespace {
 /// Largest number of samples that one call of noisy_rest_kernel() may pass over.
 constexpr int max_passed_samples = 256;
 
-/// Applies the rest rule to the lane. @returns whether the lane was at rest; then it is at a sampling
-/// instant.
+/// Applies the rest rule to the lane.
+/// @returns whether the lane was at rest; then it is at a sampling instant.
 bool rests(RunningBatch& run, int lane) {
   if (!run.lanes.varying.contains(lane)) return come_to_rest(run, lane);
   follow_reference(run, lane);
@@ -75,8 +75,8 @@ void end_sticking_steps(RunningBatch& run) {
   }
 }
 
-/// One integration step of lanes whose hook sticks, under this forcing. @returns the number of lanes that
-/// took a step.
+/// One integration step of lanes whose hook sticks, under this forcing.
+/// @returns the number of lanes that took a step.
 int step_sticking(RunningBatch& run, LaneSet lanes, Forcing forcing) {
   const LaneSet varying = lanes.in_both(run.lanes.varying);
   for (const bool varies : {false, true}) {
@@ -139,7 +139,8 @@ void step_elements(RunningBatch& run, const LaneSet& lanes, Forcing forcing) {
   rerun_lost_lanes(run);
 }
 
-/// Advances the lanes that are at rest under a constant torque to their next stop. @returns the other lanes.
+/// Advances the lanes that are at rest under a constant torque to their next stop.
+/// @returns the other lanes.
 LaneSet without_resting(RunningBatch& run, const LaneSet& lanes, Forcing forcing, Kernels::Rest rest) {
   const LaneSet steady = lanes.without(run.lanes.varying);
   return steady.empty() ? lanes : lanes.without(steady.without(rest(run.state, steady, forcing)));
@@ -185,8 +186,8 @@ LaneSet waiting_for_noise(const RunningBatch& run, const LaneSet& ahead) {
   return lanes;
 }
 
-/// Advances lanes at rest along the polynomial description of their slow motion. @returns the lanes that it
-/// has moved.
+/// Advances lanes at rest along the polynomial description of their slow motion.
+/// @returns the lanes that it has moved.
 LaneSet follow_descriptions(RunningBatch& run, const LaneSet& ahead) {
   LaneSet moved;
   if (const LaneSet noisy = waiting_for_noise(run, ahead); !noisy.empty()) {

@@ -37,7 +37,7 @@ struct LaneTrial {
   trial::TrialOutcome* outcome{nullptr};
   std::size_t move{0};
   std::int64_t first_sample{0};  ///< Number of the present move's first sample, counted from the start of the
-                                 ///< trial
+                                 /// < trial
   LaneMotion motion{LaneMotion::contact};
 
   /// Scalar plant of a lane with LaneMotion::contact. Only its spring is always up to date; call
@@ -47,17 +47,17 @@ struct LaneTrial {
   /// Scalar plant of a lane with LaneMotion::coulomb. Call load_motion() before reading its motion.
   std::optional<CoulombPlant> coulomb;
   double elongation_tolerance{0.0};  ///< Truncation error of the motion allowed per step
-                                     ///< (MotionTolerance::elongation), rad
+                                     /// < (MotionTolerance::elongation), rad
   double breakaway_spring_torque{
       0.0};                ///< Torque σb of the contact's spring when the present slide began, N m
   double read_twist{0.0};  ///< Rotor angle minus the encoder's angle at the last sample, if the
-                           ///< encoder reads the second mass (LoopLanes::read_twist), rad
+                           /// < encoder reads the second mass (LoopLanes::read_twist), rad
 
   std::int64_t breakaways{
       0};  ///< Number of times in the present move that the contact has broken away into a slide
   bool slid_at_start{false};  ///< Whether the contact was sliding when the present move began
   std::int64_t deepest{0};    ///< Largest number of reversal points on the spring's stack in the present
-                              ///< move
+                              /// < move
 
   trial::Jerks jerks;              ///< Excursions of the error from zero after arrival, in the present move
   std::int64_t reported_jerks{0};  ///< Number of jerks of the trial that have been reported to the observer
@@ -98,8 +98,9 @@ void close_loop(BatchState& batch, int lane, LaneTrial& trial);
 void end_creep(BatchState& batch, int lane, LaneTrial& trial);
 void break_away(BatchState& batch, int lane, LaneTrial& trial);
 void re_stick(BatchState& batch, int lane, LaneTrial& trial);
-/// Advances the lane to its next sample by its scalar plant. @param torque torque on the rotor without a
-/// varying disturbance, N m. @returns whether the motion stayed finite.
+/// Advances the lane to its next sample by its scalar plant.
+/// @param torque torque on the rotor without a varying disturbance, N m.
+/// @returns whether the motion stayed finite.
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque);
 
 /// Starts the trial with the index `trial.number`, with its first move, in the lane. (lane_start.cpp)

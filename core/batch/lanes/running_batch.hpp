@@ -20,7 +20,7 @@ struct LaneStates {
   // Motion: each active lane is in one of these.
   LaneSet sticking;  ///< Lanes whose friction contact sticks and acts as a spring
   LaneSet waiting;   ///< Lanes whose friction contact sticks, with an event in the next step. The event is
-                     ///< located once enough lanes wait.
+                     /// < located once enough lanes wait.
   LaneSet standing;  ///< Lanes whose rotor is held still by Coulomb friction
   LaneSet sliding;   ///< Lanes whose friction contact slides, by the pre-sliding law or by Coulomb friction
   LaneSet bristles;  ///< Lanes whose friction law has a bristle or Maxwell-slip elements
@@ -49,7 +49,7 @@ struct LaneStates {
   LaneSet loaded_driven;
 
   LaneSet ahead;  ///< Lanes at rest that follow a polynomial description of their slow motion
-                  ///< (CreepAheadLanes); their scalar plant lags behind
+                  /// < (CreepAheadLanes); their scalar plant lags behind
 
   std::array<LaneSet*, 21> all() {
     return {&active,       &sticking,    &waiting,   &standing, &sliding,       &bristles,      &elements,
@@ -104,8 +104,8 @@ void start_next_trial(RunningBatch& run, int lane);
 /// (lane_torque.cpp)
 void change_torques(RunningBatch& run);
 
-/// Ends the moves whose samples have all been taken; their lanes go on to the next move or trial. @returns
-/// the lanes that are at a sampling instant. (lane_end.cpp)
+/// Ends the moves whose samples have all been taken; their lanes go on to the next move or trial.
+/// @returns the lanes that are at a sampling instant. (lane_end.cpp)
 LaneSet end_moves(RunningBatch& run);
 
 /// Processes one sampling instant of the lanes `due`: encoders, controller, converter, and measures. A lane
@@ -127,7 +127,8 @@ void move_free(RunningBatch& run);
 void set_motion(RunningBatch& run, int lane);
 
 /// Advances the lane to its next sample by its scalar plant. If the motion does not stay finite, the whole
-/// trial is run anew by run_trial(). @returns whether the motion stayed finite. (lane_steps.cpp)
+/// trial is run anew by run_trial().
+/// @returns whether the motion stayed finite. (lane_steps.cpp)
 bool follow_reference(RunningBatch& run, int lane);
 
 /// Divides the lanes into four sets by whether their torque varies and whether they have a second mass.
@@ -146,8 +147,8 @@ void begin_piece(RunningBatch& run, int lane);
 void drive_torque(RunningBatch& run, int lane);
 
 /// Applies the rest rule to the lane. A lane at rest advances in closed form, by creep and residual
-/// oscillation, to its next stop or to the first sampling instant at which its count differs. @returns
-/// whether the lane was at rest; then it is at a stop. (lane_rest.cpp)
+/// oscillation, to its next stop or to the first sampling instant at which its count differs.
+/// @returns whether the lane was at rest; then it is at a stop. (lane_rest.cpp)
 bool come_to_rest(RunningBatch& run, int lane);
 
 /// Ends the lane's trial, whose move has diverged at the last sample. (lane_end.cpp)
@@ -173,9 +174,10 @@ void report_passed_samples(RunningBatch& run);
 /// Reports, for each lane that stands between two samples, the last sample that it has passed over at rest to
 /// the observer.
 void report_passed_at_rest(RunningBatch& run, const LaneSet& lanes);
-/// Reports a sample passed over at rest to the observer. @param passed number of samples since the last one
-/// taken. @param theta rotor angle at the sample, rad. @param creep state of creep at the sample.
-/// (lane_records.cpp)
+/// Reports a sample passed over at rest to the observer.
+/// @param passed number of samples since the last one taken.
+/// @param theta rotor angle at the sample, rad.
+/// @param creep state of creep at the sample. (lane_records.cpp)
 void report_sample_at_rest(RunningBatch& run, int lane, double passed, double theta,
                            const friction::CreepState& creep);
 

@@ -59,7 +59,8 @@ bool Bristle::sliding() const {
 }
 
 /// Whether the rotor is fast and the bristle has reached the deflection of steady sliding, within rounding.
-/// If so, sets z to that deflection. @param direction direction of the motion, −1 or 1.
+/// If so, sets z to that deflection.
+/// @param direction direction of the motion, −1 or 1.
 bool Bristle::saturates(double direction) {
   if (!(std::abs(omega_) > parameters_.fast)) return false;
   const double end = direction * parameters_.level.coulomb / parameters_.stiffness;

@@ -45,7 +45,9 @@ struct BristleMotion {
   BristleSeries start() const;
   double expand(BristleSeries& s, std::size_t k, double torque) const;
   /// Longest step in which the truncation error of the bristle's deflection z stays within the tolerance of
-  /// θ, because an error of z becomes an error of ω. @param duration longest step to consider, s. @returns s.
+  /// θ, because an error of z becomes an error of ω.
+  /// @param duration longest step to consider, s.
+  /// @returns s.
   static double step_of_state(const BristleSeries& series, double tolerance, double duration) {
     return motion::step_within(series.deflection, series.omega, series.exponent, tolerance, duration);
   }

@@ -23,8 +23,8 @@ ZEROCOUNT_ALWAYS_INLINE BristleConstants<Number> in_unit_of_time(const BristleCo
   return {of.stiffness, of.bristle_damping / h, of.damping / h, in_unit_of_time(of.level, h)};
 }
 
-/// Taylor series in time of the motion of a bristle and its rotor. @tparam Series an array of the
-/// coefficients.
+/// Taylor series in time of the motion of a bristle and its rotor.
+/// @tparam Series an array of the coefficients.
 template <class Series>
 struct BristleSeriesOf : LevelSeriesOf<Series> {
   Series position;    ///< Rotor angle θ, rad
@@ -35,9 +35,11 @@ struct BristleSeriesOf : LevelSeriesOf<Series> {
 
 /// Computes the Taylor coefficients k of the friction level and of the ratio ω·z/g(ω), and k + 1 of θ and z
 /// (BristleMotion).
-/// @tparam ConstantLevel whether the friction level g is Fc. @param direction sign s of ω. @param saturated
-/// whether z stays as it is; only with a constant level. @param torque coefficient k of the torque u on the
-/// rotor. @returns coefficient k of the accelerating torque u − σ0·z − σ1·dz/dt − d·ω.
+/// @tparam ConstantLevel whether the friction level g is Fc.
+/// @param direction sign s of ω.
+/// @param saturated whether z stays as it is; only with a constant level.
+/// @param torque coefficient k of the torque u on the rotor.
+/// @returns coefficient k of the accelerating torque u − σ0·z − σ1·dz/dt − d·ω.
 template <bool ConstantLevel, class Number, class Mask, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number bristle_coefficient(const BristleConstants<Number>& of,
                                                    const Number& direction,
@@ -60,7 +62,9 @@ ZEROCOUNT_ALWAYS_INLINE Number bristle_coefficient(const BristleConstants<Number
 }
 
 /// Whether the contact counts as sliding: its friction without the viscous damping d is above 0.99·g(ω).
-/// @param deflection z, rad. @param omega ω, rad/s. @param level g(ω), N m.
+/// @param deflection z, rad.
+/// @param omega ω, rad/s.
+/// @param level g(ω), N m.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto bristle_slides(const BristleConstants<Number>& of, const Number& deflection,
                                             const Number& omega, const Number& level) {
@@ -71,7 +75,10 @@ ZEROCOUNT_ALWAYS_INLINE auto bristle_slides(const BristleConstants<Number>& of, 
 /// Whether the bristle of a fast rotor may be set to its deflection in steady sliding, `end`. The distance |z
 /// − end|, which decays as exp(−σ0·∫|ω|dt/Fc), changes ω by Fc·|z − end|/(J·|ω|); the function is true if
 /// this is at most 1e-12 of ω.
-/// @param deflection z, rad. @param end sgn(ω)·Fc/σ0, rad. @param coulomb Fc, N m. @param inertia J, kg m².
+/// @param deflection z, rad.
+/// @param end sgn(ω)·Fc/σ0, rad.
+/// @param coulomb Fc, N m.
+/// @param inertia J, kg m².
 /// @param omega ω, rad/s.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto is_at_end(const Number& deflection, const Number& end, const Number& coulomb,

@@ -22,7 +22,7 @@ template <class Number>
 struct GmsConstants {
   StribeckCurveOf<Number> level;  ///< Friction level g(ω)
   Number attraction;              ///< Attraction C, the rate at which a slipping element's torque goes to its
-                                  ///< level, N m/s
+                                  /// < level, N m/s
   Number damping;                 ///< Viscous damping cs, N m s/rad
 };
 
@@ -52,8 +52,9 @@ ZEROCOUNT_ALWAYS_INLINE Number torque_of_elements(const Elements& elements) {
 
 /// Lets the elements slip whose torque equals, within rounding, the level at which they slip in this
 /// direction; their torque is set to that level.
-/// @param direction sign s of the motion, or 0. @param level friction level g(ω), N m. @returns the sums over
-/// all elements afterwards.
+/// @param direction sign s of the motion, or 0.
+/// @param level friction level g(ω), N m.
+/// @returns the sums over all elements afterwards.
 template <class Number, class Elements>
 ZEROCOUNT_ALWAYS_INLINE GmsSums<Number> begin_to_slip(Elements& elements, const Number& direction,
                                                       const Number& level) {
@@ -77,8 +78,11 @@ ZEROCOUNT_ALWAYS_INLINE GmsSums<Number> begin_to_slip(Elements& elements, const 
 
 /// Applies the rest rule of GmsFriction. If the rotor is at rest, the elements that hold it take over the
 /// difference between the torque and ΣFi.
-/// @param torque torque on the rotor, N m. @param omega ω, rad/s. @param level g(0), N m. @param rest largest
-/// travel ε that counts as rest, rad. @param load_is_quiet whether a second mass, if any, permits rest.
+/// @param torque torque on the rotor, N m.
+/// @param omega ω, rad/s.
+/// @param level g(0), N m.
+/// @param rest largest travel ε that counts as rest, rad.
+/// @param load_is_quiet whether a second mass, if any, permits rest.
 /// @returns whether the rotor is at rest.
 template <class Number, class Elements, class Mask>
 ZEROCOUNT_ALWAYS_INLINE Mask rest_on_elements(Elements& elements, const Number& torque, const Number& omega,
@@ -103,7 +107,8 @@ ZEROCOUNT_ALWAYS_INLINE Mask rest_on_elements(Elements& elements, const Number& 
   return rests;
 }
 
-/// Taylor series of the elements and their rotor. @tparam Series an array of the coefficients.
+/// Taylor series of the elements and their rotor.
+/// @tparam Series an array of the coefficients.
 template <class Series>
 struct GmsSeriesOf : LevelSeriesOf<Series> {
   Series position;        ///< Travel of the rotor since the start of the step, rad
@@ -111,7 +116,7 @@ struct GmsSeriesOf : LevelSeriesOf<Series> {
   Series slipping;        ///< Torque of all slipping elements divided by the friction level, slipping/g(ω)
   Series slipping_ratio;  ///< slipping/g(ω)
   Series fading;          ///< Decay factor E, from 1, by which slipping elements approach their levels
-                          ///< (GmsMotion), dimensionless
+                          /// < (GmsMotion), dimensionless
   Series fading_ratio;    ///< Decay factor E divided by the friction level, fading/g(ω), 1/(N m)
 };
 
@@ -125,9 +130,10 @@ ZEROCOUNT_ALWAYS_INLINE Number acting_attraction(const GmsConstants<Number>& of,
 }
 
 /// Computes the Taylor coefficients k of functions of the state, and k + 1 of the state except ω.
-/// @param of constants of the law, with acting_attraction() as the attraction. @param direction sign s of the
-/// motion. @param torque coefficient k of the torque u on the rotor. @returns coefficient k of the
-/// accelerating torque u − ΣFi − cs·ω.
+/// @param of constants of the law, with acting_attraction() as the attraction.
+/// @param direction sign s of the motion.
+/// @param torque coefficient k of the torque u on the rotor.
+/// @returns coefficient k of the accelerating torque u − ΣFi − cs·ω.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number gms_coefficient(const GmsConstants<Number>& of, const GmsSums<Number>& sums,
                                                const Number& direction, GmsSeriesOf<Series>& s, std::size_t k,
@@ -148,16 +154,16 @@ ZEROCOUNT_ALWAYS_INLINE Number gms_coefficient(const GmsConstants<Number>& of, c
   return torque - sticking - s.slipping[k] - of.damping * s.omega[k];
 }
 
-/// Taylor coefficient k of a sticking element's margin to slipping, ηi·g(ω) − s·Fi. @param direction sign s
-/// of the motion.
+/// Taylor coefficient k of a sticking element's margin to slipping, ηi·g(ω) − s·Fi.
+/// @param direction sign s of the motion.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number margin_coefficient(const GmsStateOf<Number>& state, const Number& direction,
                                                   const GmsSeriesOf<Series>& s, std::size_t k) {
   return state.weight * s.level[k] - direction * (k == 0 ? state.torque : state.stiffness * s.position[k]);
 }
 
-/// Torque Fi of an element after a travel of the rotor (rad). @param slipping, fading values of
-/// GmsSeriesOf::slipping and GmsSeriesOf::fading after that travel.
+/// Torque Fi of an element after a travel of the rotor (rad).
+/// @param slipping, fading values of GmsSeriesOf::slipping and GmsSeriesOf::fading after that travel.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number torque_after(const GmsStateOf<Number>& state, const GmsSums<Number>& sums,
                                             const Number& travel, const Number& slipping,

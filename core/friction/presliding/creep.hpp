@@ -20,12 +20,14 @@ struct CreepState {
 };
 
 /// The power |σ|ⁿ (unit (N m)ⁿ) of the spring torque in the creep law; n is an exponent of `friction`. The
-/// usual n = 2 needs no pow(). @param torque σ, N m.
+/// usual n = 2 needs no pow().
+/// @param torque σ, N m.
 inline double torque_power(const FrictionParameters& friction, double torque) {
   return friction.n == 2.0 ? torque * torque : numerics::pow(std::abs(torque), friction.n);
 }
 
-/// The hardening |σ|ⁿ/λ (rad) at which creep under the constant spring torque σ (N m) ends. @param torque σ.
+/// The hardening |σ|ⁿ/λ (rad) at which creep under the constant spring torque σ (N m) ends.
+/// @param torque σ.
 inline double hardening_limit(const FrictionParameters& friction, double torque) {
   return torque_power(friction, torque) / friction.lambda;
 }
@@ -96,8 +98,10 @@ struct CreepAtRest {
 
 /// Computes quasi-static creep at rest under the torque u, with s·u > 0. Empty if creep is too fast: α must
 /// be below a tenth of the rates at which the motion of the rotor decays, c/2J and k/c.
-/// @param torque u, N m. @param sign s, the sign of the spring torque. @param stiffness tangent stiffness k
-/// of the spring, N m/rad. @param hardening xh at t = 0, rad, below the limit |u|ⁿ/λ.
+/// @param torque u, N m.
+/// @param sign s, the sign of the spring torque.
+/// @param stiffness tangent stiffness k of the spring, N m/rad.
+/// @param hardening xh at t = 0, rad, below the limit |u|ⁿ/λ.
 std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
                                          const FrictionParameters& contact, double torque, double sign,
                                          double stiffness, double hardening);

@@ -138,8 +138,8 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
   return next.time;
 }
 
-/// Turns the creep law on or off, depending on the hardening and the spring torque. @returns the rate of
-/// creep dxp/dt, rad/s.
+/// Turns the creep law on or off, depending on the hardening and the spring torque.
+/// @returns the rate of creep dxp/dt, rad/s.
 double PreslidingFriction::switch_creep() {
   if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
   const double rate = creep_rate();

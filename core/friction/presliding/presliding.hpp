@@ -37,7 +37,7 @@ struct PlantMotion {
 ///
 ///   ((δσ + c·δω)/J)² + (ωn·δω)² = (A·ωn²)².
 ///
-/// Where A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of CreepAtRest, which the rotor follows while
+/// If A < ε and |δσ| < 2ε·dσ/dxs, σ and ω are set to those of CreepAtRest, which the rotor follows while
 /// the torque is constant. This neglects an oscillation of amplitude ε.
 ///
 /// At a reversal the rotor comes to rest earlier, where β·A² < ε: a loop of the spring of size A is open by
@@ -97,10 +97,10 @@ class PreslidingFriction {
     double time;                      ///< Time since the rest began, s
   };
 
-  /// Applies the rest rule under the constant torque `torque` (N m). @returns whether the rotor is at rest.
-  /// Then step() with that torque advances over any duration at once.
-  /// @param at_reversal whether the elongation rate dxs/dt is exactly zero. @param load the second mass; null
-  /// without one
+  /// Applies the rest rule under the constant torque `torque` (N m).
+  /// @returns whether the rotor is at rest. Then step() with that torque advances over any duration at once.
+  /// @param at_reversal whether the elongation rate dxs/dt is exactly zero.
+  /// @param load the second mass; null without one
   bool come_to_rest(double torque, bool at_reversal, motion::Load* load = nullptr);
   /// The present state of rest; empty while the rotor is not at rest.
   const std::optional<Rest>& rest() const { return rest_; }
@@ -109,7 +109,7 @@ class PreslidingFriction {
     double time;    ///< Time since the rest began, s
     double rate;    ///< Rate of creep dxh/dt, rad/s; 0 without creep
     double growth;  ///< Growth of the hardening, and of |plastic extension|, by creep since the rest began,
-                    ///< rad
+                    /// < rad
     ResidualOscillation::State oscillation;
   };
   /// State of the creep after another `time` (s) at rest. Call only while the rotor is at rest.

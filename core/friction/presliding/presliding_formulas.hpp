@@ -18,7 +18,7 @@ struct SpringBranchOf {
   Number sign{1.0};              ///< Side s of xr on which the branch lies: −1 or 1
   Number k1{0.0};                ///< Final (lowest) tangent stiffness, N m/rad
   Number softening_torque{0.0};  ///< Torque by which the branch exceeds the line of slope k1 after a long
-                                 ///< travel, N m
+                                 /// < travel, N m
   Number softening_rate{0.0};    ///< Rate at which the branch softens to the stiffness k1, 1/rad
 };
 
@@ -28,8 +28,8 @@ ZEROCOUNT_ALWAYS_INLINE Number travel_on(const SpringBranchOf<Number>& branch, c
   return branch.sign * (x - branch.elongation);
 }
 
-/// Spring torque σ (N m) on a hysteresis branch after the travel |x − xr| (rad). @param softened 1 −
-/// exp(−softening_rate·|x − xr|).
+/// Spring torque σ (N m) on a hysteresis branch after the travel |x − xr| (rad).
+/// @param softened 1 − exp(−softening_rate·|x − xr|).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number torque_after(const SpringBranchOf<Number>& branch, const Number& travel,
                                             const Number& softened) {
@@ -47,7 +47,7 @@ struct OscillationConstants {
   Number creep{0.0};      ///< Rate ξ of creep per elongation, 1/s
   Number loss{0.0};       ///< Loss by hysteresis at the initial amplitude: η·a₀, 1/s
   Number slowing{0.0};    ///< Reduction of the frequency by softening at the initial amplitude: κ·a₀,
-                          ///< dimensionless
+                          /// < dimensionless
 };
 
 template <class Number>
@@ -58,7 +58,8 @@ struct OscillationPhase {
 
 /// Amplitude and phase of the residual oscillation (see ResidualOscillation) at the time t. With x = η·a₀·(1
 /// − exp(−γt))/γ, a/a₀ = exp(−γt)/(1 + x) and ∫a/a₀ dt = log(1 + x)/(η·a₀).
-/// @param decayed 1 − exp(−γt). @param t time since the oscillation began, s
+/// @param decayed 1 − exp(−γt).
+/// @param t time since the oscillation began, s
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE OscillationPhase<Number> oscillation_phase(const OscillationConstants<Number>& of,
                                                                    const Number& decayed, const Number& t) {
@@ -76,7 +77,9 @@ struct OscillationState {
 };
 
 /// State of the residual oscillation (see ResidualOscillation) with a given amplitude and phase.
-/// @param amplitude a/a₀, the amplitude divided by the initial one. @param s sin φ. @param c cos φ.
+/// @param amplitude a/a₀, the amplitude divided by the initial one.
+/// @param s sin φ.
+/// @param c cos φ.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE OscillationState<Number> oscillation_state(const OscillationConstants<Number>& of,
                                                                    const Number& amplitude, const Number& s,

@@ -23,8 +23,8 @@ bool PreslidingFriction::load_is_quiet(const motion::TorqueCourse& torque, doubl
                                -contact_.alpha * creep_rate_now);
 }
 
-/// Ends the state of rest, if any. @returns whether the rotor was at rest and its residual oscillation had
-/// ended.
+/// Ends the state of rest, if any.
+/// @returns whether the rotor was at rest and its residual oscillation had ended.
 bool PreslidingFriction::leave_rest() {
   if (!rest_) return false;
   const bool was_at_rest = !(rest_->time < rest_->oscillation.end);
@@ -34,7 +34,8 @@ bool PreslidingFriction::leave_rest() {
   return was_at_rest;
 }
 
-/// Applies the rest rule under the constant torque `torque` (N m). @returns whether the rotor is at rest.
+/// Applies the rest rule under the constant torque `torque` (N m).
+/// @returns whether the rotor is at rest.
 /// @param was_at_rest whether the rotor has been at rest until now, under another torque.
 /// @param may_oscillate whether a residual oscillation at a reversal counts as rest.
 bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation, bool was_at_rest,
@@ -67,8 +68,8 @@ bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation,
   return true;
 }
 
-/// State of creep (extension and hardening) without the contribution of the residual oscillation. @param sign
-/// sign of the spring torque.
+/// State of creep (extension and hardening) without the contribution of the residual oscillation.
+/// @param sign sign of the spring torque.
 CreepState PreslidingFriction::slow_creep(double sign) const {
   return {creep_.extension - oscillation_.extension, creep_.hardening - sign * oscillation_.extension};
 }
@@ -171,7 +172,8 @@ OscillationLaw PreslidingFriction::oscillation_law(const Excess& excess) const {
 }
 
 /// Makes the present elongation a reversal point of the spring, and moves the spring to the end of the
-/// oscillation. @returns the residual oscillation that begins here.
+/// oscillation.
+/// @returns the residual oscillation that begins here.
 ResidualOscillation PreslidingFriction::begin_oscillation(const Excess& excess) {
   const CreepAtRest& creep = excess.creep;
   const double from = spring_.elongation();

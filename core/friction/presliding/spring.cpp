@@ -16,8 +16,8 @@ double softened(double y) {
   return -numerics::expm1_of_draws(-y);
 }
 
-/// The smallest y for which the condition holds, to the last bit, by bisection. @param low, high ends between
-/// which y lies; the condition is false at `low` and true at `high`.
+/// The smallest y for which the condition holds, to the last bit, by bisection.
+/// @param low, high ends between which y lies; the condition is false at `low` and true at `high`.
 template <class Condition>
 double least_that(double low, double high, const Condition& holds) {
   return numerics::bisect(

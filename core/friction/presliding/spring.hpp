@@ -71,7 +71,8 @@ class HystereticSpring {
   explicit HystereticSpring(const FrictionParameters& friction) : friction_(friction) {}
 
   /// Starts a new contact, without reversal points, on the virgin curve at `elongation` (rad). The contact is
-  /// unstretched or has just re-stuck. @param direction direction of its last motion: −1, 0, 1.
+  /// unstretched or has just re-stuck.
+  /// @param direction direction of its last motion: −1, 0, 1.
   void start_virgin(double elongation, int direction);
 
   /// Starts a contact that has been stretched slowly from its virgin state to `torque` (N m), and then
@@ -85,7 +86,7 @@ class HystereticSpring {
   int direction() const {
     return direction_;
   }  ///< Direction of the last motion: −1 or 1; 0 before any
-     ///< motion
+     /// < motion
   std::size_t depth() const { return stack_.size(); }
   const SpringBranch& branch() const { return branch_; }
 
@@ -108,7 +109,8 @@ class HystereticSpring {
   void set_direction(int direction);
 
   /// Moves the spring to the elongation x (rad), and sets the direction of motion there, as
-  /// set_direction(direction) does. @param torque torque on the present hysteresis branch at x, N m.
+  /// set_direction(direction) does.
+  /// @param torque torque on the present hysteresis branch at x, N m.
   void set_direction(int direction, double x, double torque);
 
   /// Sets the elongation to x (rad), which must lie on the present hysteresis branch before its end.
@@ -135,8 +137,8 @@ class HystereticSpring {
     double stiffness;   ///< Tangent stiffness at the point, N m/rad
   };
 
-  /// The point that move_to_torque(torque) would reach, without moving the spring. @param torque spring
-  /// torque, N m, different from the present one.
+  /// The point that move_to_torque(torque) would reach, without moving the spring.
+  /// @param torque spring torque, N m, different from the present one.
   PointOnBranch point_at_torque(double torque) const;
 
  private:

@@ -23,7 +23,7 @@ struct StickingSeries {
   numerics::Series magnitude{};        ///< Absolute spring torque |σ|, N m
   numerics::Series power{};            ///< Power |σ|ⁿ of the spring torque in the creep law
   double torque_sign{1.0};             ///< Sign of the spring torque σ, which does not change while creep is
-                                       ///< on
+                                       /// < on
   double per_lambda{0.0};              ///< Reciprocal 1/λ of the hardening modulus of creep
 };
 
@@ -43,12 +43,12 @@ struct Sticking {
     creep_off,     ///< Creep ends: the hardening has caught up with |σ|ⁿ/λ
     breakaway,     ///< The contact's torque reaches the breakaway torque, so that the contact starts to slide
     velocity_zero  ///< The rotor's velocity comes to ω = 0, which may start a slide in a contact already
-                   ///< loaded beyond breakaway
+                   /// < loaded beyond breakaway
   };
 
   const FrictionParameters& contact;
   double damping;  ///< Damping c between the rotor and the hook, the end of the friction spring that sticks,
-                   ///< N m s/rad
+                   /// < N m s/rad
   HystereticSpring& spring;
   CreepState& creep;
   double& omega;              ///< Velocity ω of the rotor, rad/s
@@ -78,7 +78,8 @@ struct Sticking {
   }
 
   /// Taylor coefficient k ≥ 1 of |σ|ⁿ, σ the spring torque. The whole exponents n = 1 and 2 need no division
-  /// by σ, which may be tiny. @param magnitude, power series of |σ| and of |σ|ⁿ.
+  /// by σ, which may be tiny.
+  /// @param magnitude, power series of |σ| and of |σ|ⁿ.
   static double torque_power_coefficient(const numerics::Series& magnitude, const numerics::Series& power,
                                          double n, std::size_t k) {
     if (n == 1.0) return magnitude[k];

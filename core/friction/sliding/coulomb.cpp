@@ -54,7 +54,8 @@ bool CoulombFriction::torque_drives(double direction, const motion::TorqueCourse
 /// Lets the rotor stand under the torque for at most `duration` (s), and starts a slide when |u| passes the
 /// breakaway torque. It can do so at most once, and only towards the value at which u settles, because u is
 /// monotonic. An excess of torque too small to change ω in rounding does not start a slide: otherwise the
-/// rotor would slide and stick without end. @returns the time used, s.
+/// rotor would slide and stick without end.
+/// @returns the time used, s.
 double CoulombFriction::stand(const motion::TorqueCourse& torque, double duration) {
   if (motion::is_coupled(torque)) return stand_coupled(torque, duration);
   const double torque_now = motion::torque_on_rotor(torque, 0.0);

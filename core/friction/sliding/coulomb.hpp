@@ -55,7 +55,8 @@ class CoulombFriction : public WithoutCreepAndReversals {
  private:
   double stand(const motion::TorqueCourse& torque, double duration);
   /// Advances a rotor at rest that a second mass or a varying disturbance acts on, by one step of at most
-  /// `duration` (s). @returns the time used, s.
+  /// `duration` (s).
+  /// @returns the time used, s.
   double stand_coupled(const motion::TorqueCourse& torque, double duration);
   double slide(const motion::TorqueCourse& torque, double duration);
   bool torque_drives(double direction, const motion::TorqueCourse& torque) const;

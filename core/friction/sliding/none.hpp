@@ -60,7 +60,8 @@ class NoFriction : public WithoutCreepAndReversals {
 
  private:
   /// Advances a rotor on which a second mass or a varying disturbance d acts by one Taylor step: J·dω/dt = u
-  /// + d − Ts − c·ω. @returns the time used, at most `duration`, s.
+  /// + d − Ts − c·ω.
+  /// @returns the time used, at most `duration`, s.
   double step_coupled(const motion::TorqueCourse& torque, double duration);
 
   motion::PlantParameters plant_;

@@ -37,8 +37,8 @@ ZEROCOUNT_ALWAYS_INLINE StribeckCurveOf<Number> in_unit_of_time(const StribeckCu
   return {curve.coulomb, curve.excess, curve.per_velocity_squared / (h * h)};
 }
 
-/// Taylor series in time of exp(−(ω/ωs)²), the exponential of the Stribeck curve. @tparam Series an array of
-/// the coefficients.
+/// Taylor series in time of exp(−(ω/ωs)²), the exponential of the Stribeck curve.
+/// @tparam Series an array of the coefficients.
 template <class Series>
 struct StribeckSeriesOf {
   Series exponent;  ///< Exponent −(ω/ωs)² of the Stribeck curve, dimensionless
@@ -75,10 +75,11 @@ template <class Number>
 struct SlideConstants {
   Number damping;                 ///< Viscous damping cs of the slide, N m s/rad
   StribeckCurveOf<Number> curve;  ///< Stribeck curve g, with its torques multiplied by the direction d of the
-                                  ///< slide
+                                  /// < slide
 };
 
-/// Taylor series in time of the motion of a rotor that slides. @tparam Series an array of the coefficients.
+/// Taylor series in time of the motion of a rotor that slides.
+/// @tparam Series an array of the coefficients.
 template <class Series>
 struct SlideSeriesOf : StribeckSeriesOf<Series> {
   Series position;  ///< Rotor angle θ, rad
@@ -87,8 +88,8 @@ struct SlideSeriesOf : StribeckSeriesOf<Series> {
 
 /// Computes Taylor coefficients of a motion with viscous damping alone: coefficient k + 1 of the position
 /// from coefficient k of ω.
-/// @param torque coefficient k of the torque u. @returns coefficient k of the accelerating torque u −
-/// damping·ω.
+/// @param torque coefficient k of the torque u.
+/// @returns coefficient k of the accelerating torque u − damping·ω.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number damped_coefficient(const Number& damping, Series& s, std::size_t k,
                                                   const Number& torque) {
@@ -98,8 +99,9 @@ ZEROCOUNT_ALWAYS_INLINE Number damped_coefficient(const Number& damping, Series&
 
 /// Computes Taylor coefficients of a slide: coefficient k of the Stribeck curve's exponential, and k + 1 of
 /// the position.
-/// @tparam Fast whether the friction level g is Fc to the last bit. @param torque coefficient k of the torque
-/// u. @returns coefficient k of the accelerating torque u − cs·ω − d·g(ω).
+/// @tparam Fast whether the friction level g is Fc to the last bit.
+/// @param torque coefficient k of the torque u.
+/// @returns coefficient k of the accelerating torque u − cs·ω − d·g(ω).
 template <bool Fast, class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number slide_coefficient(const SlideConstants<Number>& of, SlideSeriesOf<Series>& s,
                                                  std::size_t k, const Number& torque) {

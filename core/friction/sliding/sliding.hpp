@@ -32,7 +32,9 @@ inline double decay_at(const StribeckCurve& curve, double omega) {
 
 /// Torque u − cs·ω − d·g(ω) that accelerates a rotor whose friction contact slides in the direction d = ±1, N
 /// m.
-/// @param torque u, N m. @param damping cs, N m s/rad. @param curve Stribeck curve g, not multiplied by d.
+/// @param torque u, N m.
+/// @param damping cs, N m s/rad.
+/// @param curve Stribeck curve g, not multiplied by d.
 template <class Number>
 Number sliding_torque(const Number& torque, const Number& damping, const StribeckCurveOf<Number>& curve,
                       double direction, const Number& omega) {
@@ -71,7 +73,8 @@ struct Slide {
   void go_to(const SlidingSeries& series, const motion::NextEvent<Event>& next);
 };
 
-/// Whether the slide can leave ω = 0 in its direction under the torque. @param inertia J, kg m².
+/// Whether the slide can leave ω = 0 in its direction under the torque.
+/// @param inertia J, kg m².
 bool leaves_rest(const Slide& slide, double inertia, const motion::TorqueCourse& torque);
 
 struct SlideStep {
@@ -79,8 +82,9 @@ struct SlideStep {
   bool ended;   ///< Whether ω has come to 0, or cannot leave it
 };
 
-/// Advances the slide by one Taylor step of at most `duration` (s). @param inertia J, kg m². @param tolerance
-/// truncation error of θ allowed per `duration`, rad.
+/// Advances the slide by one Taylor step of at most `duration` (s).
+/// @param inertia J, kg m².
+/// @param tolerance truncation error of θ allowed per `duration`, rad.
 SlideStep slide_step(Slide& slide, double inertia, const motion::TorqueCourse& torque, double tolerance,
                      double duration);
 

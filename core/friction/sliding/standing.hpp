@@ -11,7 +11,7 @@ struct StandingContact {
   double breakaway;  ///< Breakaway torque Fs, N m
   double inertia;    ///< Inertia J of the rotor, kg m²
   bool spent;        ///< Whether a slide that led no further than the tolerance (leads_nowhere()) has just
-                     ///< ended here
+                     /// < ended here
 };
 
 struct StandingSeries {
@@ -55,7 +55,7 @@ struct StandStep {
   /// Direction in which the torque releases the rotor at the end of the step: −1, 1; 0: it still stands
   double direction;
   bool at_level;  ///< Whether the torque equals the breakaway torque at the end of the step
-                  ///< (Slide::at_level); otherwise it exceeds it
+                  /// < (Slide::at_level); otherwise it exceeds it
 };
 
 /// Advances a standing rotor under a torque with a load or a varying disturbance. The step ends at the end of
@@ -66,7 +66,8 @@ struct StandStep {
 /// as equal to the level, so that the slide begins with the rate of the torque. A slide that nevertheless
 /// leads nowhere leaves a `spent` contact, which a torque within rounding of the level does not release at
 /// this instant.
-/// @param tolerance tolerance of the load's twist, rad. @param duration longest step, s.
+/// @param tolerance tolerance of the load's twist, rad.
+/// @param duration longest step, s.
 StandStep stand_step(const StandingContact& contact, const motion::TorqueCourse& torque, double tolerance,
                      double duration);
 

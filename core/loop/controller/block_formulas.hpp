@@ -9,7 +9,7 @@ namespace zerocount::loop {
 template <class Number>
 struct IntegralConstants {
   Number enter, leave;     ///< Largest |e| that starts the integral's deadband, and largest |e| that keeps
-                           ///< it, counts
+                           /// < it, counts
   Number zone;             ///< Largest absolute error |e| at which the integral changes, counts
   Number retention;        ///< Factor exp(−T/τ) by which the leak reduces the integral per sample
   Number lowest, highest;  ///< Range to which the integral is clamped, N m
@@ -22,7 +22,9 @@ struct IntegralState {
 };
 
 /// Mask: whether the error is inside the integral's deadband, which begins at |e| ≤ enter and ends at |e| >
-/// leave. @param inside 1 if it was inside at the last sample. @param error e, counts.
+/// leave.
+/// @param inside 1 if it was inside at the last sample.
+/// @param error e, counts.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto inside_deadband(const IntegralConstants<Number>& c, const Number& inside,
                                              const Number& error) {
@@ -31,7 +33,8 @@ ZEROCOUNT_ALWAYS_INLINE auto inside_deadband(const IntegralConstants<Number>& c,
 
 /// Updates the integral: I ← clamp(retention·I + increment) where |e| is outside the deadband and within the
 /// zone; otherwise I stays.
-/// @param error e, counts. @param increment N m.
+/// @param error e, counts.
+/// @param increment N m.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE void integrate(const IntegralConstants<Number>& c, IntegralState<Number>& state,
                                        const Number& error, const Number& increment) {
@@ -56,8 +59,9 @@ ZEROCOUNT_ALWAYS_INLINE Number acting_error(const ErrorDeadbandConstants<Number>
 }
 
 /// Number of successive samples, including this one, with |e| ≤ band. A new target restarts the count.
-/// @param run result of this function at the last sample. @param new_target 1 if the target is new at this
-/// sample, otherwise 0. @param error e, counts.
+/// @param run result of this function at the last sample.
+/// @param new_target 1 if the target is new at this sample, otherwise 0.
+/// @param error e, counts.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number samples_within(const Number& band, const Number& run, const Number& new_target,
                                               const Number& error) {
@@ -73,8 +77,8 @@ struct StandstillConstants {
   Number kp, ki, kd;  ///< Gains of the PID law at standstill, N m/count
 };
 
-/// Updates the number of successive samples at standstill, `run` (samples_within()), by this sample. @returns
-/// a mask: true while the standstill gains act.
+/// Updates the number of successive samples at standstill, `run` (samples_within()), by this sample.
+/// @returns a mask: true while the standstill gains act.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto stands_still(const StandstillConstants<Number>& c, Number& run,
                                           const Number& new_target, const Number& error) {
@@ -96,8 +100,10 @@ struct HoldState {
   Number torque;   ///< Wanted torque at the last sample, which is held, N m
 };
 
-/// Updates the state of the torque hold by this sample. @param fresh 1 at a new target and at the first
-/// sample, otherwise 0. @param error e, counts. @returns a mask: true while the torque is held.
+/// Updates the state of the torque hold by this sample.
+/// @param fresh 1 at a new target and at the first sample, otherwise 0.
+/// @param error e, counts.
+/// @returns a mask: true while the torque is held.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto holds_torque(const HoldConstants<Number>& c, HoldState<Number>& state,
                                           const Number& fresh, const Number& error) {
@@ -119,7 +125,10 @@ ZEROCOUNT_ALWAYS_INLINE Number dither_torque(const Number& amplitude, const Numb
 }
 
 /// Low-pass filtered difference of successive counts, d_k = a·d_{k−1} + (1 − a)·(count_k − count_{k−1}),
-/// counts. @param a pole of the filter. @param last d_{k−1}. @param change count_k − count_{k−1}.
+/// counts.
+/// @param a pole of the filter.
+/// @param last d_{k−1}.
+/// @param change count_k − count_{k−1}.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number filtered_difference(const Number& a, const Number& last,
                                                    const Number& change) {
@@ -138,7 +147,8 @@ struct BiquadState {
   Number s1, s2;
 };
 
-/// Filters one sample x: y = b₀·x + s₁,  s₁ ← b₁·x − a₁·y + s₂,  s₂ ← b₂·x − a₂·y. @returns the output y.
+/// Filters one sample x: y = b₀·x + s₁,  s₁ ← b₁·x − a₁·y + s₂,  s₂ ← b₂·x − a₂·y.
+/// @returns the output y.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number biquad_step(const BiquadConstants<Number>& c, BiquadState<Number>& state,
                                            const Number& x) {
@@ -153,14 +163,15 @@ ZEROCOUNT_ALWAYS_INLINE Number biquad_step(const BiquadConstants<Number>& c, Biq
 template <class Number>
 struct ObserverConstants {
   Number acceleration;  ///< Factor A from the second difference of counts to the accelerating torque, N
-                        ///< m/count
+                        /// < m/count
   Number q;
   Number a1, a2;
 };
 
 /// Advances the disturbance observer by one sample.
-/// @param travel count_k − count_0, counts. @param torque torque decided one sample before, N m. @returns the
-/// estimate d̂ of the disturbance torque, N m.
+/// @param travel count_k − count_0, counts.
+/// @param torque torque decided one sample before, N m.
+/// @returns the estimate d̂ of the disturbance torque, N m.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number observer_step(const ObserverConstants<Number>& c, BiquadState<Number>& state,
                                              const Number& travel, const Number& torque) {
@@ -181,8 +192,9 @@ struct CascadeConstants {
   Number ki;        ///< Integral gain of the velocity loop by the trapezoidal rule, ki·T/2, N m s/rad
 };
 
-/// Velocity error of the cascade, v* − v = v* − (Δx_v/T)·d_k, rad/s. @param command velocity command v*,
-/// rad/s: kv·Δx·e_k after VelocityCommand. @param d filtered difference of counts, counts.
+/// Velocity error of the cascade, v* − v = v* − (Δx_v/T)·d_k, rad/s.
+/// @param command velocity command v*, rad/s: kv·Δx·e_k after VelocityCommand.
+/// @param d filtered difference of counts, counts.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number velocity_error(const CascadeConstants<Number>& c, const Number& command,
                                               const Number& d) {
@@ -195,7 +207,8 @@ ZEROCOUNT_ALWAYS_INLINE Number rounded_command(const Number& command, const Numb
   return resolution * rint(command / resolution);
 }
 
-/// Torque of the cascade's velocity loop, kp·w + I, N m. @param w velocity error v* − v, rad/s.
+/// Torque of the cascade's velocity loop, kp·w + I, N m.
+/// @param w velocity error v* − v, rad/s.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number cascade_torque(const Number& integral, const Number& kp, const Number& w) {
   return kp * w + integral;

@@ -10,8 +10,9 @@
 namespace zerocount::loop {
 
 /// Gains of the cascade (position loop around a velocity loop), converted to units of counts and samples.
-/// @param sample_rate Hz. @param resolution, velocity_resolution Δx of the encoders of the position and the
-/// velocity loop, rad per count.
+/// @param sample_rate Hz.
+/// @param resolution, velocity_resolution Δx of the encoders of the position and the velocity loop, rad per
+/// count.
 inline CascadeConstants<double> cascade_constants(const CascadeParameters& gains, double sample_rate,
                                                   double resolution, double velocity_resolution) {
   return {gains.kv * resolution, sample_rate * velocity_resolution, gains.kp, 0.5 * gains.ki / sample_rate};
@@ -33,7 +34,8 @@ class VelocityCommand {
   explicit VelocityCommand(const CascadeParameters& parameters)
       : parameters_(parameters), sent_(static_cast<std::size_t>(parameters.latency), 0.0) {}
 
-  /// The velocity command that the velocity loop gets at this sample, rad/s. @param wanted kv·Δx·e_k, rad/s.
+  /// The velocity command that the velocity loop gets at this sample, rad/s.
+  /// @param wanted kv·Δx·e_k, rad/s.
   double step(const Feedback& now, double wanted) {
     if (now.sample % parameters_.divider == 0) {
       const auto& p = parameters_;
@@ -103,8 +105,8 @@ class Cascade {
     last_velocity_error_ = velocity_error(constants_, command(now), difference_.value());
   }
 
-  /// Sets the integral I to `torque` (N m), so that the law continues from this torque. @returns 0, the
-  /// torque needed from the block before, because the law is the first block.
+  /// Sets the integral I to `torque` (N m), so that the law continues from this torque.
+  /// @returns 0, the torque needed from the block before, because the law is the first block.
   double take_over(double torque) {
     integral_.set(torque);
     return 0.0;

@@ -21,7 +21,8 @@ class BlockChain {
   BlockChain(const ControllerParameters& parameters, const ControlStart& start)
       : blocks_(Blocks(parameters, start)...) {}
 
-  /// Runs all blocks for this sample. @returns the wanted torque (N m).
+  /// Runs all blocks for this sample.
+  /// @returns the wanted torque (N m).
   double step(const Feedback& now) {
     double torque = 0.0;
     for_each([&](auto& block) { torque = block.step(now, torque); });
@@ -79,7 +80,8 @@ class ControlChain {
   ControlChain(const ControllerParameters& parameters, const ControlStart& start)
       : blocks_(parameters, start), hold_(parameters, start) {}
 
-  /// Runs the blocks and the torque hold for this sample. @returns the wanted torque (N m).
+  /// Runs the blocks and the torque hold for this sample.
+  /// @returns the wanted torque (N m).
   double step(const Feedback& now) {
     if (hold_.holds(now)) {
       blocks_.pause(now);

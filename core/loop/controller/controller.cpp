@@ -86,8 +86,8 @@ bool has_coarse_phase(const ControllerParameters& parameters) {
 
 namespace {
 
-/// Counts, before the first sample, of the encoder that closes the loop of one control phase. @param
-/// sample_rate Hz.
+/// Counts, before the first sample, of the encoder that closes the loop of one control phase.
+/// @param sample_rate Hz.
 CountsBefore counts_before(const EncoderParameters& encoders, EncoderChoice encoder, double sample_rate,
                            const StartOfMotion& start) {
   const double sample_time = 1.0 / sample_rate;

@@ -21,7 +21,8 @@ namespace zerocount::loop {
 /// phase is fine, or coarse if |e_0| > coarse_beyond; that does not count as a change.
 class PhaseSwitch {
  public:
-  /// Creates the rule, in the initial phase. @param sample_rate Hz.
+  /// Creates the rule, in the initial phase.
+  /// @param sample_rate Hz.
   /// @param coarse_before counts of the coarse phase's encoder before the first sample.
   PhaseSwitch(const CoarsePhaseParameters& rule, double sample_rate, const CountsBefore& coarse_before = {});
 
@@ -38,9 +39,9 @@ class PhaseSwitch {
 
   CoarsePhaseParameters rule_;
   double dwell_;         ///< Dwell D: number of samples in the coarse phase after which the fine phase
-                         ///< begins. It may exceed the number of samples of any trial.
+                         /// < begins. It may exceed the number of samples of any trial.
   double first_change_;  ///< Difference count_0 − count_{−1} of the coarse phase's encoder before the first
-                         ///< sample, counts
+                         /// < sample, counts
   ControlPhase phase_{ControlPhase::fine};
   std::int64_t changes_{0};
   std::int64_t settled_{0};  ///< Number of successive samples that meet the condition for the fine phase
@@ -59,12 +60,12 @@ ControllerParameters controller_in_phase(ControllerParameters controller, Contro
 /// standstill gains.
 std::optional<ControllerParameters> controller_at_standstill(ControllerParameters controller);
 
-/// Linear descriptions of the controller's blocks, without their limits. @param parameters a control without
-/// phases.
+/// Linear descriptions of the controller's blocks, without their limits.
+/// @param parameters a control without phases.
 LinearChain linear_chain(const ControllerParameters& parameters, const EncoderParameters& encoders);
 
-/// Range to which anti-windup clamps the controller's integral, N m. @param lowest, highest range of the DAC,
-/// N m.
+/// Range to which anti-windup clamps the controller's integral, N m.
+/// @param lowest, highest range of the DAC, N m.
 TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest);
 
 /// The controller: it computes the wanted torque from the encoders' counts. It has one chain of blocks, or
@@ -78,8 +79,8 @@ TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest
 /// therefore changes only by ki·(e_k + e_{k−1}) + kp·e_k − kd·(count_k − count_{k−1}).
 class Controller {
  public:
-  /// Creates the controller. @param integral integral I before the first sample, in the phase of that sample,
-  /// N m.
+  /// Creates the controller.
+  /// @param integral integral I before the first sample, in the phase of that sample, N m.
   /// @param start position and velocity at the start, which give the counts before the first sample.
   Controller(const ControllerParameters& parameters, const EncoderParameters& encoders, double integral,
              const DacScale& dac, const StartOfMotion& start = {});
@@ -89,8 +90,8 @@ class Controller {
   void hold(double torque);
 
   /// Computes the wanted torque (N m) at this sample.
-  /// @param reference reference in counts of the fine encoder. @param motion motion of the reference before
-  /// it is rounded to counts.
+  /// @param reference reference in counts of the fine encoder.
+  /// @param motion motion of the reference before it is rounded to counts.
   /// @param torque_in_force the torque decided at the last sample, N m; 0 before the first. A torque of the
   /// DAC, hence within its range.
   /// @param new_target whether the target differs from that of the last update.
@@ -111,7 +112,7 @@ class Controller {
   EncoderChoice fine_encoder_;    ///< Encoder that closes the loop in the fine phase
   EncoderChoice coarse_encoder_;  ///< Encoder that closes the loop in the coarse phase
   bool velocity_by_other_;  ///< Whether the velocity loop of the fine phase reads the encoder on the other
-                            ///< mass
+                            /// < mass
   double fine_per_coarse_;
   ControlChain fine_;    ///< Blocks of the fine phase
   ControlChain coarse_;  ///< Blocks of the coarse phase

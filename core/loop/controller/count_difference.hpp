@@ -32,7 +32,8 @@ class CountDifference {
         before_(before),
         difference_(counts_per_sample(before)) {}
 
-  /// Updates the filtered mean difference d by the count of this sample. @returns d, counts.
+  /// Updates the filtered mean difference d by the count of this sample.
+  /// @returns d, counts.
   double step(double count) {
     if (last_counts_.empty()) start(count);
     const double change = (count - last_counts_[oldest_]) / static_cast<double>(window_);

@@ -9,7 +9,8 @@
 namespace zerocount::loop {
 
 /// Constants of the disturbance observer, converted to units of counts.
-/// @param sample_rate Hz. @param resolution Δx, rad per count.
+/// @param sample_rate Hz.
+/// @param resolution Δx, rad per count.
 inline ObserverConstants<double> observer_constants(const ObserverParameters& observer, double sample_rate,
                                                     double resolution) {
   const double w = std::numbers::pi * observer.bandwidth / sample_rate;

@@ -12,8 +12,9 @@ struct FeedforwardConstants {
   Number friction;      ///< Feed-forward torque in the direction of ṙ, N m
 };
 
-/// Feed-forward torque velocity·ṙ + acceleration·r̈ + friction·sgn(ṙ), N m. @param velocity ṙ, rad/s. @param
-/// acceleration r̈, rad/s².
+/// Feed-forward torque velocity·ṙ + acceleration·r̈ + friction·sgn(ṙ), N m.
+/// @param velocity ṙ, rad/s.
+/// @param acceleration r̈, rad/s².
 template <class Number>
 Number feedforward_torque(const FeedforwardConstants<Number>& c, const Number& velocity,
                           const Number& acceleration) {

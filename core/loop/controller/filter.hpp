@@ -10,7 +10,8 @@ namespace zerocount::loop {
 
 /// Coefficients of the digital filter for the transfer function (n₂·p² + n₁·p + n₀)/(p² + 2ζ·p + 1), p =
 /// s/ω0, by the bilinear transform p = (1 − z⁻¹)/(w·(1 + z⁻¹)).
-/// @param damping ζ. @param w tan(ω0·T/2) if prewarped at ω0, ω0·T/2 if not.
+/// @param damping ζ.
+/// @param w tan(ω0·T/2) if prewarped at ω0, ω0·T/2 if not.
 BiquadConstants<double> bilinear(double n2, double n1, double n0, double damping, double w);
 
 /// Coefficients of the digital filter at this sample rate (Hz). With ω0 = 2π·frequency and p = s/ω0:
@@ -44,7 +45,8 @@ class Filters {
   static void pause(const Feedback& /*now*/) {}
   /// Sets the filters so that their output continues from `torque` (N m): each filter starts in the steady
   /// state whose output the next filter needs. A filter without a steady state, or without static gain,
-  /// starts with past values of 0. @returns the torque that the first filter needs as its input, N m.
+  /// starts with past values of 0.
+  /// @returns the torque that the first filter needs as its input, N m.
   double take_over(double torque);
 
   LinearChain linear() const;

@@ -39,8 +39,9 @@ class Integrator {
   explicit Integrator(const IntegralConstants<double>& constants, double integral)
       : constants_(constants), state_{integral, 0.0} {}
 
-  /// Adds an increment (N m) to the integral I, subject to deadband, zone, leak and range. @param error e,
-  /// counts. @returns I, N m.
+  /// Adds an increment (N m) to the integral I, subject to deadband, zone, leak and range.
+  /// @param error e, counts.
+  /// @returns I, N m.
   double add(double error, double increment) {
     integrate(constants_, state_, error, increment);
     return state_.integral;
@@ -69,7 +70,7 @@ class Integrator {
 struct PidGains {
   double kp{0.0};  ///< Proportional gain, N m/count
   double ki{0.0};  ///< Integral gain of the trapezoidal rule: torque per sum of two successive errors, N
-                   ///< m/count
+                   /// < m/count
   double kd{0.0};  ///< Gain on the difference of successive counts, N m/count
 };
 
@@ -127,8 +128,8 @@ class Pid {
     gains_at(now);
   }
 
-  /// Sets the integral I to `torque` (N m), so that the law continues from this torque. @returns 0, the
-  /// torque needed from the block before, because the law is the first block.
+  /// Sets the integral I to `torque` (N m), so that the law continues from this torque.
+  /// @returns 0, the torque needed from the block before, because the law is the first block.
   double take_over(double torque) {
     integral_.set(torque);
     return 0.0;

@@ -8,8 +8,8 @@
 
 namespace zerocount::loop {
 
-/// The number of samples that a dwell time (s) lasts: round(dwell·sample_rate), at least 1. @param
-/// sample_rate Hz.
+/// The number of samples that a dwell time (s) lasts: round(dwell·sample_rate), at least 1.
+/// @param sample_rate Hz.
 inline double dwell_samples(double dwell, double sample_rate) {
   return std::max(1.0, std::round(dwell * sample_rate));
 }
@@ -27,7 +27,8 @@ class TorqueHold {
   TorqueHold(const ControllerParameters& parameters, const ControlStart& /*start*/)
       : constants_(hold_constants(parameters.blocks.hold, parameters.sample_rate)) {}
 
-  /// Updates the hold by the feedback of this sample. @returns whether the torque of the last sample is held.
+  /// Updates the hold by the feedback of this sample.
+  /// @returns whether the torque of the last sample is held.
   bool holds(const Feedback& now) {
     const double fresh = now.new_target || !started_ ? 1.0 : 0.0;
     started_ = true;
@@ -37,7 +38,7 @@ class TorqueHold {
   double torque() const {
     return state_.torque;
   }  ///< Wanted torque at the last sample, which the hold
-     ///< keeps, N m
+     /// < keeps, N m
   /// Declares that the next sample is the first one of the chain of blocks, at which no hold begins.
   void restart() { started_ = false; }
 

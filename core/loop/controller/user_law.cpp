@@ -30,8 +30,9 @@ State make_state(std::size_t size) {
   return bytes;
 }
 
-/// Starts the controller of a loaded library for one trial. @param setup must outlive the result. @returns
-/// the function that computes the torque at a sample.
+/// Starts the controller of a loaded library for one trial.
+/// @param setup must outlive the result.
+/// @returns the function that computes the torque at a sample.
 /// @throws Failure (bad_input) if the library refuses its parameters.
 plugin::StepFunction started(const plugin::ControllerPlugin& plugin, const zerocount_setup& setup) {
   const zerocount_controller& functions = *plugin.functions;

@@ -12,8 +12,8 @@ namespace zerocount::loop {
 /// zerocount/controller.h. It has no phases, and its transfer function is unknown.
 class UserLaw {
  public:
-  /// Starts the plugin's control law. @throws Failure (bad_input) if the plugin is not loaded, or refuses its
-  /// parameters.
+  /// Starts the plugin's control law.
+  /// @throws Failure (bad_input) if the plugin is not loaded, or refuses its parameters.
   UserLaw(const ControllerParameters& parameters, const ControlStart& start);
   UserLaw(UserLaw&&) noexcept;
   UserLaw& operator=(UserLaw&&) noexcept;

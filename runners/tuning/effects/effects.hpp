@@ -20,7 +20,7 @@ namespace zerocount::tuning {
 /// An effect of a real axis, such as encoder noise, and how to switch it off or add it in a study.
 struct Effect {
   std::string name;
-  std::string note{};     ///< What the change assumes, or what the rate does not show; empty: nothing to say.
+  std::string note{};     ///< Assumption of the change, or a limitation of its rate; empty: nothing to say.
   std::string refusal{};  ///< Reason why the change cannot be simulated; empty if it can.
   /// Changes the study's values at a design point, including values that depend on the changed ones. Empty:
   /// no value changes.
@@ -138,7 +138,7 @@ struct Limit {
   std::string effect;
   /// Success rate with the change, 0 to 1; nothing if it was not simulated, for the reason in `note`.
   std::optional<double> rate{};
-  /// What the change assumes, or what the rate does not show; without a rate, why it was not simulated.
+  /// Assumption of the change, or a limitation of its rate; without a rate, why it was not simulated.
   std::string note{};
   /// Estimate of the success rates from the simulated machines; `rate` is taken from it.
   Estimate estimate{};

@@ -52,7 +52,7 @@ bool acts(const IdealisedPoint& point, std::string_view name);
 /// in the coarse phase".
 std::string name_in_phase(std::string_view effect, std::string_view parameter);
 
-/// Which encoders (coarse, fine) close the loop, in any control phase of any trial of the point.
+/// The encoders (coarse, fine) that close the loop in any control phase of any trial of the point.
 struct LoopEncoders {
   bool fine{false};
   bool coarse{false};

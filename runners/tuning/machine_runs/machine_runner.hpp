@@ -57,7 +57,7 @@ bool is_of_settling(const study::Study& study);
 /// allows.
 bool is_proportion_of_allowed(const study::Study& study);
 
-/// What a tuning requires: the claims that all goals of the study hold in each of its settings (conditions at
+/// The aim of a tuning: the claims that all goals of the study hold in each of its settings (conditions at
 /// ages), and the quantile to minimise.
 Aim aim_of(const study::Study& study);
 /// Goal and setting (condition at an age) of a claim, as indices. Aim::claims is ordered goal by goal.

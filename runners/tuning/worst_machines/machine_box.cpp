@@ -205,7 +205,7 @@ std::string manifest_of(const MachineBox& box, const BoxPoint& point, const Name
                         const MachineManifest& manifest) {
   const study::Study& study = box.study();
   manifest_text::PointChanges changes{
-      .condition = manifest.setting, .values = values, .folder = manifest.folder.value_or("")};
+      .condition = manifest.condition, .values = values, .folder = manifest.folder.value_or("")};
   changes.removed = {"design", "worlds", "retain"};
   let_act_at_age(changes, box);
   if (are_correlated(box.inputs(), *study.plan)) changes.removed.emplace_back("correlation");

@@ -258,13 +258,13 @@ class MachineSearch {
  public:
   /// @param study study restricted to the setting
   /// @param machines machines of the study
-  /// @param setting name of the setting; empty: there is none
+  /// @param condition name of the condition under which the machine runs; empty: there is none
   /// @param folder folder to which paths in the study's manifest are relative; nothing: not a file
-  MachineSearch(const study::Study& study, const trials::Replicates& machines, std::string setting,
+  MachineSearch(const study::Study& study, const trials::Replicates& machines, std::string condition,
                 const std::optional<std::filesystem::path>& folder, const trials::Effort& effort)
       : box_(study, machines.point),
         machines_(machines),
-        manifest_{std::move(setting), folder, trials_of_verdict},
+        manifest_{std::move(condition), folder, trials_of_verdict},
         numbers_{designs::random_key(study.seed, "worst machine"), 0},
         failures_(study, machines.point),
         effort_(effort) {}

@@ -88,7 +88,7 @@ class MachineBox {
 
 /// Settings for the manifest that describes one machine.
 struct MachineManifest {
-  std::string setting{};  ///< Name of the setting (condition at an age); empty: there is none.
+  std::string condition{};  ///< Name of the condition under which the machine runs; empty: there is none.
   /// Folder to which paths in the study's manifest are relative; nothing: the manifest is not a file.
   std::optional<std::filesystem::path> folder{};
   std::int64_t trials{0};  ///< Number of trials that the manifest asks for with the described machine.

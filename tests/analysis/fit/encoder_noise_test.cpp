@@ -84,7 +84,9 @@ TEST(CountingNoise, IgnoresMaskedReadings) {
 }
 
 /// The encoder noise that fit::edge_noise() estimates from two simulated records of one encoder.
-/// @param noise true noise, counts @param most largest change of the path per sample, counts @param
+/// @param noise true noise, counts
+/// @param most largest change of the path per sample, counts
+/// @param
 ///        model_error amplitude of the error of the fitted motion, counts
 double edge_noise_of(double noise, double most, double model_error, std::mt19937_64& random) {
   std::vector<fit::TestRecord> records;

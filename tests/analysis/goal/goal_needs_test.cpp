@@ -55,8 +55,8 @@ std::int64_t binomial(testing::Draws& draws, std::int64_t n, double p) {
   return hits;
 }
 
-/// Counts of good moves of a random study without worlds. @param count number of machines; 0: every trial on
-/// a machine of its own
+/// Counts of good moves of a random study without worlds.
+/// @param count number of machines; 0: every trial on a machine of its own
 measures::CellCounts counts_of_study(testing::Draws& draws, const Machines& machines, std::int64_t count,
                                      std::int64_t trials) {
   measures::CellCounts counts({.machines = count});

@@ -223,8 +223,8 @@ TEST(GoalNeedsInWorlds, DecideIfTheTrueRatesEqualTheObservedOnes) {
   }
 }
 
-/// Counts of a study from the moves of the machines of all worlds. @param worlds [world][machine] moves of
-/// one machine
+/// Counts of a study from the moves of the machines of all worlds.
+/// @param worlds [world][machine] moves of one machine
 measures::CellCounts counts_on_machines(const std::vector<std::vector<statistics::MachineMoves>>& worlds) {
   const std::size_t machines = worlds.front().size() * worlds.size();
   measures::CellCounts counts({static_cast<std::int64_t>(machines), std::ssize(worlds), 0});

@@ -12,6 +12,7 @@
 
 #include "analysis/statistics/sums/state.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/manifest/load_study.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/each_seed.hpp"
 
@@ -88,6 +89,19 @@ struct CountsInCells {
   std::int64_t moves{draws.integer(1, 3)};  ///< number of moves per trial
   std::vector<std::int64_t> met;            ///< [trial] number of moves that meet the goal
 };
+
+TEST(CellCounts, HasNoSettingsIfTheStudyHasNeitherConditionsNorAges) {
+  const auto settings_of = [](const std::string& more) {
+    return shape_of(
+               manifest::parse_study(
+                   "zerocount: 1\nname: s\nseed: 1\ntrials: 6\ncommand: {targets: [10], hold: 0.1}\n" + more,
+                   "m.yaml", {}))
+        .settings;
+  };
+  EXPECT_EQ(settings_of(""), 0);
+  EXPECT_EQ(settings_of("conditions: {it: {plant.inertia: 5.0e-4}}\n"), 1);
+  EXPECT_EQ(settings_of("ages: {at: [0, 1000], unit: h}\n"), 2);
+}
 
 TEST_EACH_SEED(CountsInCells, EqualTheCountsOfTheTrialsOfEachCell) {
   const CellCounts counts = counted();

@@ -21,7 +21,7 @@ using monitor::MoveLog;
 using Directions = std::vector<Direction>;
 using Values = std::vector<double>;
 
-/// What the monitor answers about a log of moves.
+/// Answer of the monitor about a log of moves.
 struct Said {
   MachineStatus status;
   std::string measure, direction;

@@ -18,7 +18,8 @@ namespace {
 using sliding_identification::SlidingIdentification;
 
 /// Divides the joint's inertia into two masses on a coupling with this resonance (Hz).
-/// @param ratio inertia of the load over that of the motor @param damping damping ratio of the resonance
+/// @param ratio inertia of the load over that of the motor
+/// @param damping damping ratio of the resonance
 void add_second_mass(Joint& joint, double ratio, double resonance, double damping) {
   const double omega = 2.0 * std::numbers::pi * resonance;
   joint.load = joint.inertia * ratio / (1.0 + ratio);

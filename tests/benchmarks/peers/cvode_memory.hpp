@@ -58,7 +58,8 @@ class CvodeMemory {
 PeerState cvode_state(N_Vector y);
 
 /// Throws if a function of CVODE failed.
-/// @param flag value that the function returned @param what name of the function
+/// @param flag value that the function returned
+/// @param what name of the function
 /// @throws std::runtime_error if `flag` says that it failed
 void require_success(int flag, const char* what);
 

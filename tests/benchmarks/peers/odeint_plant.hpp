@@ -12,8 +12,8 @@ namespace zerocount::testing {
 /// dense output, in which events are located and the samples are read.
 class OdeintPlant {
  public:
-  /// @param parameters must outlive the plant. @param tolerance largest local error of a step before the
-  /// first breakaway, rad.
+  /// @param parameters must outlive the plant.
+  /// @param tolerance largest local error of a step before the first breakaway, rad.
   OdeintPlant(const trial::TrialParameters& parameters, double tolerance);
 
   /// Applies the torque (N m) from now on.

@@ -58,7 +58,8 @@ std::size_t size_of_members(std::size_t& size, Members... members) {
   }
 }
 
-/// Number of bytes of a record whose change is seen. @param differ whether two records are seen to differ.
+/// Number of bytes of a record whose change is seen.
+/// @param differ whether two records are seen to differ.
 template <class Record, class Differ>
 std::size_t seen_bytes(Differ differ) {
   std::size_t seen = 0;

@@ -29,7 +29,8 @@ const std::vector<std::string> values_of_worlds{"friction.k1", "friction.k2", "f
 const std::vector<std::string> other_values{"plant.inertia", "friction.alpha", "initial.position"};
 
 /// A study with this design.
-/// @param worlds number of worlds; 0: none @param machines number of machines; 0: none
+/// @param worlds number of worlds; 0: none
+/// @param machines number of machines; 0: none
 study::Study study_with_worlds(const std::string& text, const std::string& design, int worlds, int machines,
                                int trials, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides{"design=" + design, fmt::format("trials={}", trials)};

@@ -68,8 +68,8 @@ TEST(MachineSizes, EveryRangeHoldsTheNumbersOfEveryMachine) {
   }
 }
 
-/// Manifest of a cascade control with everything that depends on the size of the machine. @param gain factor
-/// of the velocity loop's gains
+/// Manifest of a cascade control with everything that depends on the size of the machine.
+/// @param gain factor of the velocity loop's gains
 std::string manifest_of(const Machine& m, double gain = 1.0) {
   const double stiffness = m.torque() / m.move;
   const double damping = stiffness / m.bandwidth;

@@ -43,7 +43,8 @@ class Words {
     }
   }
 
-  /// The whole command line. @param input the operand that is a file
+  /// The whole command line.
+  /// @param input the operand that is a file
   std::vector<std::string> line(const std::string& input) const {
     std::vector<std::string> line{spec_.name};
     if (!spec_.operand_words.empty())

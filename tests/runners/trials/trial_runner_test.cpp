@@ -128,7 +128,8 @@ std::vector<RowRange> blocks_of(const study::Study& study, const std::vector<Row
   return blocks;
 }
 
-/// A study with two design points for the batch engine. @param trials number of trials at each point
+/// A study with two design points for the batch engine.
+/// @param trials number of trials at each point
 study::Study batch_study(std::int64_t trials) {
   const TemporaryFolder folder;
   folder.write("study.yaml", small_manifest(static_cast<int>(trials)));

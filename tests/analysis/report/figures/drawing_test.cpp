@@ -66,7 +66,7 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What the page's drawing program prints for a figure when Node.js runs it.
+/// Output of the page's drawing program for a figure when Node.js runs it.
 /// @param form argument `form` of drawing_program()
 std::string drawn_by_node(const Figure& figure, const char* form) {
   const testing::TemporaryFolder folder;

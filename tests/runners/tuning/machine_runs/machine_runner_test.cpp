@@ -26,7 +26,8 @@ namespace {
 using tuning::MachineResult;
 using Results = std::vector<std::vector<MachineResult>>;
 
-/// A study with two conditions. @param section a further section of the manifest
+/// A study with two conditions.
+/// @param section a further section of the manifest
 study::Study study_with(double ki, const std::string& section) {
   const std::string text = fmt::format(R"(zerocount: 1
 name: units

@@ -159,7 +159,8 @@ TEST(Proof, TriesTheNextFinalistIfItRejectsOneThatMeetsTheGoal) {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// A candidate of the search that is judged by one claim. @param results [machine] results
+/// A candidate of the search that is judged by one claim.
+/// @param results [machine] results
 Candidate candidate_of(const std::vector<ClaimResult>& results) {
   Candidate candidate;
   for (const ClaimResult& one : results) candidate.machines.push_back({.claims = {one}});

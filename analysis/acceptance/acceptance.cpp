@@ -14,7 +14,7 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/iso230/columns.hpp"
 #include "analysis/iso230/repeatability.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clusters/observed_test.hpp"
 #include "analysis/text/text.hpp"
@@ -97,12 +97,12 @@ bool is_asked(const study::Goal& goal, const monitor::MoveLog& log, std::size_t 
 struct LoggedLimit {
   const monitor::MonitoredMeasure& measure;
   const std::vector<double>& values;  ///< [row] Value of the measure for the move in this row of the log.
-  double largest;
+  text::Limit limit;                  ///< Limit of the magnitude.
 };
 
 bool meets(const LoggedLimit& limit, std::size_t row) {
   const double value = limit.values[row];
-  return monitor::is_nothing(limit.measure, value) || std::abs(value) <= limit.largest;
+  return monitor::is_nothing(limit.measure, value) || text::keeps(std::abs(value), limit.limit);
 }
 
 /// [move] Whether the move of the log meets the goal. Only the moves that the goal judges are contained, in
@@ -120,7 +120,7 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
   std::vector<LoggedLimit> limits;
   for (const study::GoalLimit& limit : goal.limits) {
     const std::string name = study::name_in(goal, limit.measure);
-    limits.push_back({log.find(name)->measure, values_of(log, name, file.axis()), limit.largest});
+    limits.push_back({log.find(name)->measure, values_of(log, name, file.axis()), limit.limit});
   }
   std::vector<bool> met;
   for (std::size_t row = 0; row < times.size(); ++row) {
@@ -141,7 +141,7 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
 /// moves that meet the goal.
 std::vector<measures::CellCounts> simulated_counts(const reading::AllTrialsFile& file, std::int64_t point) {
   const study::Study& study = file.study();
-  const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
+  const std::vector<measures::MoveCriterion> goals = measures::criteria_of_goals(study);
   std::vector<measures::CellCounts> counts(goals.size(),
                                            measures::CellCounts({study.machines, study.worlds, 0}));
   const layout::RowRange rows = file.rows_of(point);
@@ -174,7 +174,7 @@ Agreement agreement_with(const MetMoves& met_of_machines, const measures::MoveCo
 /// Sets the predicted part of the claim, and whether the measured machines agree with it. If the study has
 /// several worlds (draws of what all machines share), the prediction is that of the world most like the
 /// measured machines, and the predicted interval spans the intervals of all worlds.
-void compare_with_prediction(Claim& claim, const measures::CellCounts& simulated, const MetMoves& met,
+void compare_with_prediction(AcceptedGoal& claim, const measures::CellCounts& simulated, const MetMoves& met,
                              std::uint64_t seed) {
   if (simulated.shape().worlds > 0) claim.like_worlds = 0;
   const std::vector<measures::MoveCounts> worlds = simulated.worlds_in(0);
@@ -236,7 +236,7 @@ void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
            std::span<const measures::CellCounts> measured) {
   const goal::Verdict verdict = goal::judge_goals(goals, measured, 1);
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    Claim& claim = acceptance.claims[i];
+    AcceptedGoal& claim = acceptance.claims[i];
     const measures::MoveCounts counts = measured[i].sum();
     claim.moves = counts.moves;
     claim.met = counts.met;
@@ -413,7 +413,7 @@ std::vector<StandardValue> standard_values(const reading::AllTrialsFile& file, s
 
 }  // namespace
 
-Status status_of(const Claim& claim) {
+Status status_of(const AcceptedGoal& claim) {
   if (claim.status == goal::Status::missed || claim.is_below_prediction) return Status::rejected;
   return claim.status == goal::Status::met ? Status::accepted : Status::undecided;
 }
@@ -421,7 +421,7 @@ Status status_of(const Claim& claim) {
 Status status_of(const Acceptance& acceptance) {
   const auto any = [&](Status status) {
     return std::ranges::any_of(acceptance.claims,
-                               [&](const Claim& claim) { return status_of(claim) == status; });
+                               [&](const AcceptedGoal& claim) { return status_of(claim) == status; });
   };
   return any(Status::rejected)    ? Status::rejected
          : any(Status::undecided) ? Status::undecided
@@ -462,7 +462,7 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
       acceptance.machines[machine].met.push_back(std::ranges::count(met.back(), true));
     }
     measured.push_back(measured_counts(met));
-    Claim& claim = acceptance.claims.emplace_back(Claim{.goal = study.goals[i]});
+    AcceptedGoal& claim = acceptance.claims.emplace_back(AcceptedGoal{.goal = study.goals[i]});
     claim.significance /= static_cast<double>(study.goals.size());
     compare_with_prediction(claim, simulated[i], met, study.seed);
     acceptance.simulated = study.machines;

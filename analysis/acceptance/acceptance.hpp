@@ -56,7 +56,7 @@ struct Agreement {
 
 /// One goal of the study, with its prediction from the simulated machines and its result on the measured
 /// machines.
-struct Claim {
+struct AcceptedGoal {
   study::Goal goal{};
   goal::ClaimVerdict predicted{};  ///< Verdict on the goal from the simulated machines.
   /// Verdict on the goal, from the measured moves, for the population from which the measured machines are a
@@ -105,7 +105,7 @@ struct Acceptance {
   /// Name of the results file of the study, with whose simulated machines the measured ones are compared.
   std::string study{};
   std::string point{};  ///< Label of the design point with which the machines are compared.
-  std::vector<Claim> claims{};
+  std::vector<AcceptedGoal> claims{};
   std::vector<MeasuredMachine> machines{};
   Judged judged{Judged::all_machines};
   /// Number of measured machines with which the goals would be decided for the population of machines. 0 if
@@ -126,7 +126,7 @@ struct Acceptance {
   std::vector<std::string> assumed{};
 };
 
-Status status_of(const Claim& claim);
+Status status_of(const AcceptedGoal& claim);
 /// Status of the whole acceptance: rejected if any claim is rejected, otherwise undecided if any claim is
 /// undecided, otherwise accepted.
 Status status_of(const Acceptance& acceptance);

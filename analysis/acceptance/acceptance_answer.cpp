@@ -36,19 +36,19 @@ std::string word_of(Status status) {
 /// Word for the agreement of the measured machines with the prediction of a goal: "differs", "consistent", or
 /// "too_few" if these numbers of machines could not show a difference. The command `summary` uses the same
 /// words.
-std::string_view agreement_word(const Claim& c) {
+std::string_view agreement_word(const AcceptedGoal& c) {
   if (c.agreement.p <= c.significance) return "differs";
   return c.agreement.lowest_p <= c.significance ? "consistent" : "too_few";
 }
 
-std::string name_of(const Claim& claim) {
+std::string name_of(const AcceptedGoal& claim) {
   return claim.goal.name.empty() ? "goal" : claim.goal.name;
 }
 
 /// Text of the numbers of judged moves and measured machines: "20 moves of 1 machine". "20 to 40 moves of …"
 /// if the goals judge different numbers of moves.
 std::string judged_text(const Acceptance& a) {
-  const auto [least, most] = std::ranges::minmax(a.claims, {}, &Claim::moves);
+  const auto [least, most] = std::ranges::minmax(a.claims, {}, &AcceptedGoal::moves);
   const std::string moves = least.moves == most.moves ? fmt::format("{}", most.moves)
                                                       : fmt::format("{} to {}", least.moves, most.moves);
   return fmt::format("{} moves of {} machine{}", moves, a.machines.size(), a.machines.size() == 1 ? "" : "s");
@@ -58,7 +58,7 @@ std::string judged_text(const Acceptance& a) {
 /// moves, predicted 97 %)". Empty if there is no reason.
 std::string reasons_to_reject(const Acceptance& a) {
   std::vector<std::string> missed, fewer;
-  for (const Claim& claim : a.claims) {
+  for (const AcceptedGoal& claim : a.claims) {
     if (claim.status == goal::Status::missed) missed.push_back(name_of(claim));
     if (claim.is_below_prediction)
       fewer.push_back(fmt::format("{} ({} of the moves, predicted {})", name_of(claim),
@@ -77,7 +77,7 @@ std::string reasons_to_reject(const Acceptance& a) {
 /// machine then needs its own number of moves.
 std::int64_t moves_needed(const Acceptance& a) {
   std::int64_t needed = 0;
-  for (const Claim& claim : a.claims) {
+  for (const AcceptedGoal& claim : a.claims) {
     if (claim.goal.machines) return 0;
     if (claim.status == goal::Status::undecided)
       needed = std::max(needed, statistics::trials_for_claim(claim.goal.moves, claim.goal.confidence,
@@ -108,18 +108,18 @@ std::string headline_of(const Acceptance& a) {
 
 std::string sentences_of_goals(const Acceptance& a) {
   std::string text;
-  for (const Claim& claim : a.claims)
+  for (const AcceptedGoal& claim : a.claims)
     text += (claim.goal.name.empty() ? "goal: " : "") + goal::goal_sentence(claim.goal) + '\n';
   return text;
 }
 
-std::string comparison_of(const Claim& c) {
+std::string comparison_of(const AcceptedGoal& c) {
   const std::string_view word = agreement_word(c);
   return fmt::format("{} (p = {})", word == "too_few" ? "too few to decide" : word,
                      text::short_number(c.agreement.p));
 }
 
-std::optional<Bounded> of_machines(const Claim& c, const goal::ClaimVerdict& verdict) {
+std::optional<Bounded> of_machines(const AcceptedGoal& c, const goal::ClaimVerdict& verdict) {
   if (!c.goal.machines) return std::nullopt;
   return goal::bounded(verdict.machines);
 }
@@ -130,55 +130,55 @@ Item percent(std::string key, std::string heading, std::string meaning) {
   return item;
 }
 
-Description<Claim> claim_rows() {
-  return Description<Claim>()
+Description<AcceptedGoal> claim_rows() {
+  return Description<AcceptedGoal>()
       .value(everywhere("goal", "goal", "name of the goal"), name_of)
       .value(
           with_words(everywhere("status", "status", "verdict on the machines by the goal and its prediction"),
                      status_words()),
-          [](const Claim& c) { return word_of(status_of(c)); })
+          [](const AcceptedGoal& c) { return word_of(status_of(c)); })
       .value(with_words(in_data("goal_status", "verdict on the goal alone, whatever was predicted"),
                         goal::status_words()),
-             [](const Claim& c) { return goal::text_of(c.status); })
+             [](const AcceptedGoal& c) { return goal::text_of(c.status); })
       .value(percent("wanted", "wanted", "proportion of moves that should meet it"),
-             [](const Claim& c) { return c.goal.moves; })
+             [](const AcceptedGoal& c) { return c.goal.moves; })
       .value(
           percent(
               "predicted", "predicted",
               "proportion of the simulated moves that meet it; bounds: 95 % interval for as many machines and moves as are compared"),
-          [](const Claim& c) {
+          [](const AcceptedGoal& c) {
             return Bounded{c.predicted.moves.value, c.agreement.predicted.low, c.agreement.predicted.high};
           })
       .value(
           percent("measured", "measured",
                   "proportion of the measured moves that meet it, with one-sided bounds of these machines"),
-          [](const Claim& c) { return goal::bounded(c.rate); })
-      .value(in_data("met", "measured moves that meet it"), &Claim::met)
-      .value(in_data("moves", "measured moves"), &Claim::moves)
+          [](const AcceptedGoal& c) { return goal::bounded(c.rate); })
+      .value(in_data("met", "measured moves that meet it"), &AcceptedGoal::met)
+      .value(in_data("moves", "measured moves"), &AcceptedGoal::moves)
       .value(
           with_words(everywhere("agreement", "agreement", "whether these machines are like those simulated"),
                      {"consistent", "differs", "too_few"}),
           agreement_word)
       .shown_as(comparison_of)
       .value(in_data("p_value", "two-sided p-value of the agreement", "1"),
-             [](const Claim& c) { return c.agreement.p; })
+             [](const AcceptedGoal& c) { return c.agreement.p; })
       .value(everywhere("like_worlds", "like worlds",
                         "worlds of the study that agree with the machines; null: it has no worlds"),
-             &Claim::like_worlds)
+             &AcceptedGoal::like_worlds)
       .value(in_data("compared_moves", "first moves of each machine that are compared"),
-             [](const Claim& c) { return c.agreement.moves; })
+             [](const AcceptedGoal& c) { return c.agreement.moves; })
       .value(
           percent("all_machines", "all such machines",
                   "proportion of moves of all machines of which these are a sample, with one-sided bounds"),
-          [](const Claim& c) { return goal::bounded(c.measured.moves); })
+          [](const AcceptedGoal& c) { return goal::bounded(c.measured.moves); })
       .value(
           percent(
               "machines_predicted", "machines, predicted",
               "proportion of machines that meet it in the wanted proportion of moves, with one-sided bounds; null: the goal does not ask for machines"),
-          [](const Claim& c) { return of_machines(c, c.predicted); })
+          [](const AcceptedGoal& c) { return of_machines(c, c.predicted); })
       .value(percent("machines_measured", "machines, measured",
                      "that proportion of the measured machines, with one-sided bounds"),
-             [](const Claim& c) { return of_machines(c, c.measured); });
+             [](const AcceptedGoal& c) { return of_machines(c, c.measured); });
 }
 
 /// Text of the numbers of moves of the machine that meet each goal: "20 of 20" for a goal, in the order of

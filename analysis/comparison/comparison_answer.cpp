@@ -330,8 +330,8 @@ std::string JudgementRow::bounds() const {
 }
 
 std::string JudgementRow::margin() const {
-  const char* const relation = !one.is_measure() ? one.at_least ? "≥ " : "≤ " : one.changed_fails ? "± " : "";
-  return relation + text(one.margin);
+  if (!one.is_measure()) return fmt::format("{} {}", text::sign_of(one.relation), text(one.margin));
+  return (one.changed_fails ? "± " : "") + text(one.margin);
 }
 
 /// The adjusted p-value that is shown: of a change for the better if the measure is better, otherwise of a

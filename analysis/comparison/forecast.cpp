@@ -54,7 +54,7 @@ class Simulator {
   Simulator(const ForecastSamples& samples, const ForecastOptions& options)
       : samples_(samples), options_(options) {
     std::vector<double> z;
-    for (const ForecastSamples::Measure& measure : samples.measures()) {
+    for (const ForecastSamples::SampledMeasure& measure : samples.measures()) {
       const double error = standard_error_of(measure.found.bounds, options.confidence);
       z.push_back(error > 0.0 ? measure.found.effect / error : 0.0);
     }

@@ -17,12 +17,12 @@ namespace zerocount::comparison {
 /// forecast need. The memory does not grow with the number of trials.
 class ForecastSamples {
  public:
-  struct Measure {
+  struct SampledMeasure {
     std::size_t point;
     TestedMeasure found;
     two_samples::ContinuedSample sample;
   };
-  struct Requirement {
+  struct SampledRequirement {
     std::size_t point;
     /// The requirement, without the values of the independent units (`hits` and `events` are empty).
     RequirementSample asked;
@@ -44,8 +44,8 @@ class ForecastSamples {
 
   bool one_sample() const { return one_sample_; }
   const std::array<two_samples::Continuation, 2>& continuations() const { return continuations_; }
-  const std::vector<Measure>& measures() const { return measures_; }
-  const std::vector<Requirement>& requirements() const { return requirements_; }
+  const std::vector<SampledMeasure>& measures() const { return measures_; }
+  const std::vector<SampledRequirement>& requirements() const { return requirements_; }
   /// Largest number of trials of any design point in the baseline (`file` = 0) or in the current file (`file`
   /// = 1); at least 1.
   std::int64_t trials_of(std::size_t file) const { return trials_[file]; }
@@ -54,8 +54,8 @@ class ForecastSamples {
   bool one_sample_;
   std::array<two_samples::Continuation, 2> continuations_;
   std::size_t points_{0};
-  std::vector<Measure> measures_;
-  std::vector<Requirement> requirements_;
+  std::vector<SampledMeasure> measures_;
+  std::vector<SampledRequirement> requirements_;
   std::array<std::int64_t, 2> trials_{1, 1};
 };
 

@@ -244,15 +244,16 @@ const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (o
 
 /// The parts (name, sign, limit) of a requirement such as "success_rate ≥ 0.995"; for "goal" only the name.
 /// Empty if the text is neither.
-std::optional<text::Relation> parts_of(std::string_view text) {
+std::optional<text::Comparison> parts_of(std::string_view text) {
   const std::string_view name = text::trimmed(text);
-  if (name == "goal") return text::Relation{name, {}, {}, {}};
-  const std::optional<text::Relation> parts = text::parse_relation(text);
+  if (name == "goal") return text::Comparison{name, {}, {}, {}};
+  const std::optional<text::Comparison> parts = text::parse_comparison(text);
   constexpr std::string_view characters = "abcdefghijklmnopqrstuvwxyz_.0123456789[]+-";
-  const bool complete = parts && !parts->name.empty() && !parts->limit.empty() &&
-                        parts->name.find_first_not_of(characters) == std::string_view::npos &&
-                        parts->limit.find_first_of(" \t\n\v\f\r") == std::string_view::npos &&
-                        (parts->sign == text::Sign::at_least || parts->sign == text::Sign::at_most);
+  const bool complete =
+      parts && !parts->name.empty() && !parts->limit.empty() &&
+      parts->name.find_first_not_of(characters) == std::string_view::npos &&
+      parts->limit.find_first_of(" \t\n\v\f\r") == std::string_view::npos &&
+      (parts->relation == text::Relation::at_least || parts->relation == text::Relation::at_most);
   return complete ? parts : std::nullopt;
 }
 
@@ -260,8 +261,8 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
   const std::optional<std::string> text = yaml::read_text(field, problems);
   if (!text) return std::nullopt;
   constexpr std::size_t max_length = 200;  // bytes; no requirement is so long
-  const std::optional<text::Relation> parts = text->size() <= max_length ? parts_of(*text) : std::nullopt;
-  Requirement requirement{*text, {}, true, 0.0};
+  const std::optional<text::Comparison> parts = text->size() <= max_length ? parts_of(*text) : std::nullopt;
+  Requirement requirement{.text = *text};
   const auto refuse = [&](const std::string& what, const std::string& expected) {
     problems.add(field.node->place, field.path, what, expected);
     return std::nullopt;
@@ -274,8 +275,7 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
       return refuse("a goal with a limit", "goal by itself: its limits stand in the manifest");
     return requirement;
   }
-  requirement.at_least = parts->sign == text::Sign::at_least;
-  const auto limit = text::parse_number<double>(parts->limit);
+  const std::optional<text::Limit> limit = text::limit_of(*parts);
   if (const std::string_view meanings = trial::meanings_of_settling_time(parts->name); !meanings.empty())
     return refuse(fmt::format("{} may mean two measures", yaml::in_quotes(parts->name)),
                   std::string(meanings));
@@ -283,14 +283,14 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
     return refuse(fmt::format("{} cannot be required", yaml::in_quotes(parts->name)),
                   fmt::format("one of {}", fmt::join(names_of(requirable_quantities()), ", ")));
   }
-  if (!limit || !std::isfinite(*limit))
+  if (!limit)
     return refuse(fmt::format("{} is not a number", yaml::in_quotes(parts->limit)), requirement_form);
   requirement.limit = *limit;
   const bool proportion = quantity->kind == RequirementKind::proportion;
-  if (proportion && (requirement.limit < 0.0 || requirement.limit > 1.0)) {
+  if (proportion && (limit->value < 0.0 || limit->value > 1.0)) {
     return refuse(fmt::format("{} is not a proportion", parts->limit), "a number from 0 to 1");
   }
-  if (!proportion && requirement.at_least) {
+  if (!proportion && text::is_lower_limit(limit->relation)) {
     return refuse(fmt::format("{} cannot have a lower limit", quantity->name), "≤ and a limit");
   }
   return requirement;
@@ -459,11 +459,11 @@ std::vector<GateMeasure> measures_of_limits(const GateRules& rules) {
 }
 
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const layout::MeasureTable& table,
-                                         const std::vector<JudgedGoal>& goals) {
+                                         const std::vector<study::Goal>& goals) {
   std::vector<GateMeasure> judged;
   for (std::size_t goal = 0; goal < goals.size(); ++goal) {
     for (GateMeasure& measure : goal_measures()) {
-      if (measure.statistic == GateStatistic::machines && !goals[goal].of_machines) continue;
+      if (measure.statistic == GateStatistic::machines && !goals[goal].machines) continue;
       measure.name = name_of_goal_measure(measure.name, goals[goal].name);
       measure.goal = goal;
       judged.push_back(std::move(measure));

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "analysis/statistics/proportion.hpp"
+#include "core/text/relation.hpp"
+#include "experiments/study/goal.hpp"
 #include "results/layout/measure_table.hpp"
 
 /// The judged measures, their margins, and the absolute requirements.
@@ -111,8 +113,7 @@ std::optional<RequirableQuantity> find_requirable(std::string_view name);
 struct Requirement {
   std::string text;
   RequirableQuantity quantity{};
-  bool at_least{true};
-  double limit{0.0};
+  text::Limit limit{text::Relation::at_least, 0.0};  ///< Limit that the quantity must keep.
   /// For the requirement that a goal is met: index of the goal among the judged goals; otherwise 0.
   std::size_t goal{0};
 };
@@ -144,18 +145,13 @@ struct GateRules : PointRules {
   std::map<std::string, PointRules> points{};  ///< {label of a design point: rules for this point alone}
 };
 
-/// A goal by which two studies are judged.
-struct JudgedGoal {
-  std::string name{};       ///< Name of the goal in `goals`; empty if the study has one goal.
-  bool of_machines{false};  ///< The goal also asks for a proportion of machines, not only of moves.
-};
-
 /// The measures that are judged, in the order of the report. If the rules list measures, only these are
 /// judged. Otherwise, if the study has goals, the measures of the goals and the measures with a margin in the
 /// rules are judged; without goals, all gate measures. "goal_rate" in the rules means this measure for every
 /// goal.
+/// @param goals goals by which both studies are judged; only a goal that asks for machines has goal_machines
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const layout::MeasureTable& table,
-                                         const std::vector<JudgedGoal>& goals);
+                                         const std::vector<study::Goal>& goals);
 
 /// Whether the rules name a measure that a goal defines, such as "goal_rate".
 bool names_goal_measure(const GateRules& rules);

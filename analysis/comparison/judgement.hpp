@@ -86,8 +86,8 @@ struct Judgement : TestedMeasure {
   std::string measure{};
   std::string unit{};         ///< Unit of the values, effects, bounds and margins of the judgement.
   std::string requirement{};  ///< Text of the requirement, "success_rate ≥ 0.995"; empty for a measure.
-  /// Direction of a requirement: true if the quantity must be at least (≥) the limit, false if at most (≤).
-  bool at_least{true};
+  /// Relation that a requirement demands between the quantity and its limit: at least (≥) or at most (≤).
+  text::Relation relation{text::Relation::at_least};
   std::string test{};  ///< Name of the statistical test that gave the p-values.
   /// Number of trials of the baseline with a value; if trials are paired, number of pairs.
   std::int64_t baseline_n{0};

@@ -245,9 +245,11 @@ statistics::ConfidenceInterval proportion_bounds(const two_samples::Sums& sums, 
           statistics::clopper_pearson(hits, events, 2.0 * high_confidence - 1.0).high};
 }
 
-GateVerdict verdict_of(const statistics::ConfidenceInterval& bounds, double limit, bool at_least) {
-  const bool shown = at_least ? bounds.low >= limit : bounds.high <= limit;
-  const bool contradicted = at_least ? bounds.high < limit : bounds.low > limit;
+/// The verdict that follows from bounds of the value that must keep the limit.
+GateVerdict verdict_of(const statistics::ConfidenceInterval& bounds, const text::Limit& limit) {
+  const bool is_lower = text::is_lower_limit(limit.relation);
+  const bool shown = text::keeps(is_lower ? bounds.low : bounds.high, limit);
+  const bool contradicted = text::keeps(is_lower ? bounds.high : bounds.low, negation(limit));
   if (shown) return GateVerdict::passed;
   return contradicted ? GateVerdict::regression : GateVerdict::inconclusive;
 }
@@ -258,9 +260,10 @@ void judge_proportion(Judgement& result, const RequirementSample& sample, double
     two_samples::add(sums, sums_of_unit(sample.hits[i], sample.events[i]));
   result.current_n = std::llround(sums[2]);
   result.current = statistics::rate(std::llround(sums[1]), result.current_n);
-  result.bounds = sample.at_least ? proportion_bounds(sums, sample.clustered, confidence, failing)
-                                  : proportion_bounds(sums, sample.clustered, failing, confidence);
-  result.verdict = verdict_of(result.bounds, sample.limit, sample.at_least);
+  result.bounds = text::is_lower_limit(sample.limit.relation)
+                      ? proportion_bounds(sums, sample.clustered, confidence, failing)
+                      : proportion_bounds(sums, sample.clustered, failing, confidence);
+  result.verdict = verdict_of(result.bounds, sample.limit);
 }
 
 double quantile_of(const std::vector<double>& values, double probability) {
@@ -273,7 +276,7 @@ void judge_mean(Judgement& result, const std::vector<double>& values, double con
   result.current = two_samples::mean_of(values);
   result.bounds = {two_samples::cautious_bounds(values, 1.0, failing).low,
                    two_samples::cautious_bounds(values, 1.0, confidence).high};
-  result.verdict = verdict_of(result.bounds, result.margin, result.at_least);
+  result.verdict = verdict_of(result.bounds, {result.relation, result.margin});
 }
 
 /// Judges the requirement that the goal is met by the verdict on the goal, with the confidence that the
@@ -284,9 +287,9 @@ void judge_goal(Judgement& result, const GoalTrials& required, std::size_t claim
   const measures::MoveCounts counts = required.counts.sum();
   const goal::Verdict verdict = goal::judge_goal(asked, required.counts, 1, claims);
   const bool machines = asked.machines.has_value();
-  const goal::BoundedProportion& judged = machines ? verdict.machines : verdict.moves;
+  const goal::BoundedProportion& judged = goal::judged_rate(asked, verdict);
   result.current_n = machines ? std::ssize(counts.machines) : counts.moves;
-  result.margin = machines ? *asked.machines : asked.moves;
+  result.margin = study::demanded_proportion(asked);
   result.current = judged.value;
   result.bounds = {judged.low, judged.high};
   result.verdict = verdict.status == goal::Status::met      ? GateVerdict::passed
@@ -313,7 +316,8 @@ void add_units(RequirementSample& sample, std::span<const double> hits, double e
 /// machine meets it. If worlds take the place of machines, the units are worlds.
 RequirementSample goal_sample(const PointTrials& trials, const GoalTrials& counted) {
   const study::Goal& goal = counted.goal;
-  RequirementSample sample{RequirementKind::goal, true, goal.machines.value_or(goal.moves), true};
+  RequirementSample sample{
+      RequirementKind::goal, {text::Relation::at_least, study::demanded_proportion(goal)}, true};
   const auto asked = static_cast<double>(counted.asked_moves(trials.moves));
   add_units(sample, counted.moves_in_goal, asked, counted.machines);
   for (std::size_t machine = 0; goal.machines && machine < sample.hits.size(); ++machine) {
@@ -338,16 +342,18 @@ std::vector<double> met_by_trial(const Requirement& requirement, const PointTria
   const RequirableQuantity& quantity = requirement.quantity;
   if (quantity.kind == RequirementKind::proportion) return trials.of(quantity.measure);
   std::vector<double> met = worst_of_moves(trials, quantity.measure);
-  for (double& value : met) value = value <= requirement.limit ? 1.0 : 0.0;
+  for (double& value : met) value = text::keeps(value, requirement.limit) ? 1.0 : 0.0;
   return met;
 }
 
 }  // namespace
 
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const PointTrials& trials) {
-  std::vector<JudgedGoal> goals;
-  for (const GoalTrials& one : trials.judged)
-    goals.push_back({one.goal.name, one.goal.machines.has_value() && one.machines > 0});
+  std::vector<study::Goal> goals;
+  for (const GoalTrials& one : trials.judged) {
+    goals.push_back(one.goal);
+    if (one.machines == 0) goals.back().machines.reset();
+  }
   return judged_measures(rules, *trials.table, goals);
 }
 
@@ -393,7 +399,7 @@ std::vector<Sample> measure_samples(const GateRules& rules, std::span<const Judg
 RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials) {
   const RequirableQuantity& quantity = requirement.quantity;
   if (quantity.kind == RequirementKind::goal) return goal_sample(trials, trials.required[requirement.goal]);
-  RequirementSample sample{quantity.kind, requirement.at_least, requirement.limit, trials.machines > 0};
+  RequirementSample sample{quantity.kind, requirement.limit, trials.machines > 0};
   if (quantity.kind == RequirementKind::mean) {
     sample.hits =
         two_samples::known(means_of_units(values_of_trials(trials, quantity.measure), trials.machines));
@@ -401,8 +407,7 @@ RequirementSample requirement_sample(const Requirement& requirement, const Point
     return sample;
   }
   if (quantity.kind == RequirementKind::quantile) {
-    sample.at_least = true;
-    sample.limit = quantity.probability;
+    sample.limit = {text::Relation::at_least, quantity.probability};
   }
   add_units(sample, met_by_trial(requirement, trials), 1.0, trials.machines);
   return sample;
@@ -414,13 +419,14 @@ two_samples::Sums sums_of_unit(double hits, double events) {
 
 GateVerdict requirement_verdict(const RequirementSample& sample, const two_samples::Sums& sums,
                                 double confidence, double failing_confidence) {
-  const double low = sample.at_least ? confidence : failing_confidence;
-  const double high = sample.at_least ? failing_confidence : confidence;
+  const bool is_lower = text::is_lower_limit(sample.limit.relation);
+  const double low = is_lower ? confidence : failing_confidence;
+  const double high = is_lower ? failing_confidence : confidence;
   const statistics::ConfidenceInterval bounds =
       sample.kind == RequirementKind::mean
           ? two_samples::quick_bounds({sums[0], sums[1], sums[3]}, 1.0, low, high)
           : proportion_bounds(sums, sample.clustered, low, high);
-  return verdict_of(bounds, sample.limit, sample.at_least);
+  return verdict_of(bounds, sample.limit);
 }
 
 Judgement judge_requirement(const Requirement& requirement, const PointTrials& trials, double confidence,
@@ -430,8 +436,8 @@ Judgement judge_requirement(const Requirement& requirement, const PointTrials& t
   result.requirement = requirement.text;
   result.measure = quantity.name;
   result.unit = quantity.unit;
-  result.at_least = requirement.at_least;
-  result.margin = requirement.limit;
+  result.relation = requirement.limit.relation;
+  result.margin = requirement.limit.value;
   result.verdict = GateVerdict::inconclusive;
   const RequirementSample sample = requirement_sample(requirement, trials);
   switch (quantity.kind) {

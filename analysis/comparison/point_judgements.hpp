@@ -52,8 +52,8 @@ Judgement judge_requirement(const Requirement& requirement, const PointTrials& t
 /// or world).
 struct RequirementSample {
   RequirementKind kind{RequirementKind::proportion};
-  bool at_least{true};
-  double limit{0.0};      ///< Limit of the requirement: for the mean, or for the proportion of trials.
+  /// Limit of the requirement: for the mean, or for the proportion of trials.
+  text::Limit limit{text::Relation::at_least, 0.0};
   bool clustered{false};  ///< True: the independent units are machines or worlds. False: single trials.
   /// [unit] Number of the unit's trials (for a goal: moves) that satisfy the requirement; for a mean, the
   /// value of the unit.

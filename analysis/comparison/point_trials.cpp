@@ -19,7 +19,7 @@ void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
                  std::span<const trial::MoveOutcome> outcomes) {
   for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
     goal.moves_in_goal.push_back(
-        static_cast<double>(count_moves(goal.counts, goal.counted, first++, {move, move + moves})));
+        static_cast<double>(count_moves(goal.counts, goal.criterion, first++, {move, move + moves})));
   }
 }
 
@@ -27,8 +27,8 @@ void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
 void add_goal_times(std::vector<double>& times, const GoalTrials& goal,
                     std::span<const trial::MoveOutcome> outcomes) {
   for (const trial::MoveOutcome& move : outcomes) {
-    if (!measures::asks(goal.counted, move)) continue;
-    const double time = measures::settling_time(goal.counted, move);
+    if (!measures::asks(goal.criterion, move)) continue;
+    const double time = measures::settling_time(goal.criterion, move);
     times.push_back(std::isnan(time) ? std::numeric_limits<double>::infinity() : time);
   }
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/comparison/gate_rules.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "core/trial/outcome.hpp"
 #include "results/reading/all_trials_file.hpp"
@@ -19,7 +19,7 @@ namespace zerocount::comparison {
 /// One goal with the counts of the moves that meet it, for the trials of one design point.
 struct GoalTrials {
   study::Goal goal{};
-  measures::CountedGoal counted{};
+  measures::MoveCriterion criterion{};
   /// Number of machines, also if worlds take their place as independent units; 0: the study has no machines.
   std::int64_t machines{0};
   /// Counts of moves by machine; without machines, by world (a draw of what all machines share).
@@ -29,7 +29,7 @@ struct GoalTrials {
 
   /// Number of moves of a trial that the goal judges.
   /// @param moves number of moves of a trial
-  std::int64_t asked_moves(std::int64_t moves) const { return measures::asked_moves(counted, moves); }
+  std::int64_t asked_moves(std::int64_t moves) const { return measures::asked_moves(criterion, moves); }
   /// Key of the goal's settling times in PointTrials::values: "goal_settling_time", or with the goal's name
   /// "goal_settling_time[large]".
   std::string settling_time() const { return name_of_goal_measure("goal_settling_time", goal.name); }

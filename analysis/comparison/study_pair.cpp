@@ -175,8 +175,9 @@ std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector
   std::vector<GoalTrials> all;
   for (const study::Goal& of_both : goals) {
     const study::Goal goal = for_loop_of(study, of_both);
-    const auto counted = measures::counted_by(goal, study.file.features());
-    if (!counted)
+    const std::optional<measures::MoveCriterion> criterion =
+        measures::move_criterion_of(goal, study.file.features());
+    if (!criterion)
       throw Failure(ExitCode::bad_data,
                     fmt::format("{}: it cannot be judged by the goal of the other ({}): it lacks its band, "
                                 "tolerance or limits; expected a study that measures them, or measures "
@@ -184,7 +185,7 @@ std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector
                                 study.file.path().string(), goal::goal_sentence(goal)));
     const std::int64_t machines = whole_value(study, "machines");
     all.push_back(
-        {goal, *counted, machines, measures::CellCounts({machines, whole_value(study, "worlds"), 0})});
+        {goal, *criterion, machines, measures::CellCounts({machines, whole_value(study, "worlds"), 0})});
   }
   return all;
 }

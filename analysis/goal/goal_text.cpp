@@ -36,8 +36,8 @@ std::string band_text(const study::Goal& goal) {
   return fmt::format("|error{}| ≤ {}", of_mass(goal), text::counted(goal.band, "count"));
 }
 
-/// Text of the largest allowed value of a limit of a goal, with its unit: "200 counts", "45 N", "1 µm".
-std::string largest_text(const study::GoalLimit& limit, parameters::AxisKind axis) {
+/// Text of the value of a limit of a goal, with its unit: "200 counts", "45 N", "1 µm".
+std::string value_text(const study::GoalLimit& limit, parameters::AxisKind axis) {
   study::StudyFeatures features{.axis = axis, .motion = true, .position_error = true};
   features.tolerances.count = 1;
   const auto stem = [](std::string_view name) { return name.substr(0, name.find('[')); };
@@ -46,14 +46,15 @@ std::string largest_text(const study::GoalLimit& limit, parameters::AxisKind axi
     return stem(one.field.column.name) == stem(limit.measure);
   });
   const std::string unit = measure == measures.end() ? "1" : measure->field.column.unit;
-  return text::quantity_text(limit.largest, parameters::unit_on(axis, unit), goal_digits);
+  return text::quantity_text(limit.limit.value, parameters::unit_on(axis, unit), goal_digits);
 }
 
 /// Text of the limits of a goal: ", overshoot ≤ 200 counts, peak_torque ≤ 45 N"; empty without limits.
 std::string limits_text(const study::Goal& goal) {
   std::string text;
   for (const study::GoalLimit& limit : goal.limits)
-    text += fmt::format(", {} ≤ {}", study::name_in(goal, limit.measure), largest_text(limit, goal.axis));
+    text += fmt::format(", {} {} {}", study::name_in(goal, limit.measure),
+                        text::sign_of(limit.limit.relation), value_text(limit, goal.axis));
   return text;
 }
 
@@ -150,34 +151,34 @@ std::string goal_sentence(const study::Goal& goal) {
 
 std::string claim_sentence(const Question& question) {
   std::vector<std::string> sentences;
-  for (const JudgedPart& part : question.parts) sentences.push_back(goal_sentence(*part.claim));
+  for (const JudgedCriterion& part : question.parts) sentences.push_back(goal_sentence(*part.goal));
   return fmt::format("{}", fmt::join(sentences, "; "));
 }
 
 std::string question_sentence(const Question& question) {
-  if (!question.claim())
+  if (!question.goal())
     return fmt::format("success: all moves of a trial end at zero counts{}", question.of_mass);
   return (has_several(question) ? "the goals: " : "the goal: ") + claim_sentence(question);
 }
 
 std::string doing_text(const Question& question) {
-  if (!question.claim()) return fmt::format("end at zero counts{}", question.of_mass);
+  if (!question.goal()) return fmt::format("end at zero counts{}", question.of_mass);
   return has_several(question) ? "meet the goals that are about them" : "meet the goal";
 }
 
 std::string missing_text(const Question& question) {
-  if (!question.claim()) return fmt::format("does not end at zero counts{}", question.of_mass);
+  if (!question.goal()) return fmt::format("does not end at zero counts{}", question.of_mass);
   if (has_several(question)) return "misses a goal";
-  return fmt::format("misses the goal: {} for good {}{}", band_text(*question.claim()),
-                     after_text(question.claim()->within, fmt::format("{} s", question.claim()->within.time)),
-                     limits_text(*question.claim()));
+  return fmt::format("misses the goal: {} for good {}{}", band_text(*question.goal()),
+                     after_text(question.goal()->within, fmt::format("{} s", question.goal()->within.time)),
+                     limits_text(*question.goal()));
 }
 
 std::string ending_text(const Question& question, std::span<const trial::MoveOutcome> moves) {
-  if (!question.claim()) return ending_of(trial::worst_outcome(moves), question.of_mass);
+  if (!question.goal()) return ending_of(trial::worst_outcome(moves), question.of_mass);
   const auto is_asked = [&](const trial::MoveOutcome& move) {
-    return std::ranges::any_of(question.parts,
-                               [&](const JudgedPart& part) { return measures::asks(part.counted, move); });
+    return std::ranges::any_of(
+        question.parts, [&](const JudgedCriterion& part) { return measures::asks(part.criterion, move); });
   };
   const auto asked = std::ranges::count_if(moves, is_asked);
   const auto met = std::ranges::count_if(moves, [&](const trial::MoveOutcome& move) {
@@ -189,12 +190,12 @@ std::string ending_text(const Question& question, std::span<const trial::MoveOut
 
 std::string goals_text(const Question& question, const measures::PointSummary& point,
                        const Verdict& verdict) {
-  const auto readings = [&](const JudgedPart& part, const ClaimVerdict& of_goal) {
+  const auto readings = [&](const JudgedCriterion& part, const ClaimVerdict& of_goal) {
     const measures::MoveCounts counts = point.goals[part.number].sum({.setting = of_goal.setting});
     return (question.settings.empty()
                 ? ""
                 : fmt::format(" {}, the worst:\n", under_text(question, of_goal.setting))) +
-           readings_text(*part.claim, counts, of_goal) +
+           readings_text(*part.goal, counts, of_goal) +
            (of_goal.of_load ? fmt::format("  of the load, {} of all moves meet it{}: {}\n",
                                           text::percent_near(of_goal.of_load->value),
                                           question.settings.empty()
@@ -207,9 +208,9 @@ std::string goals_text(const Question& question, const measures::PointSummary& p
     return readings(question.parts.front(), verdict) + together_text(question, point);
   std::string text;
   for (std::size_t goal = 0; goal < question.parts.size(); ++goal) {
-    const JudgedPart& part = question.parts[goal];
+    const JudgedCriterion& part = question.parts[goal];
     const ClaimVerdict& worst = worst_of_goal(verdict, goal);
-    text += fmt::format("  {}{}\n{}", name_text(*part.claim), text_of(worst.status), readings(part, worst));
+    text += fmt::format("  {}{}\n{}", name_text(*part.goal), text_of(worst.status), readings(part, worst));
   }
   return text + together_text(question, point);
 }

@@ -71,8 +71,8 @@ double observed_margin(const BoundedProportion& proportion, double wanted) {
 /// Standing (rank) of a verdict, by its status first.
 /// @param verdict verdict whose status and proportions are set
 Standing standing_of(const study::Goal& goal, const WorldVerdict& verdict) {
-  const BoundedProportion& claimed = goal.machines ? verdict.machines : verdict.moves;
-  const double wanted = goal.machines.value_or(goal.moves);
+  const BoundedProportion& claimed = judged_rate(goal, verdict);
+  const double wanted = study::demanded_proportion(goal);
   Standing standing{.status = rank_of(verdict.status),
                     .bound = logit_difference(claimed.low, wanted),
                     .observed = observed_margin(claimed, wanted)};
@@ -100,8 +100,8 @@ ClaimVerdict judge_claim(const study::Goal& goal, std::span<const measures::Move
     verdict.machines_without_miss += one.machines_without_miss;
     verdict.worlds.push_back(one);
   }
-  const double wanted = goal.machines.value_or(goal.moves);
-  const BoundedProportion& judged = goal.machines ? verdict.machines : verdict.moves;
+  const double wanted = study::demanded_proportion(goal);
+  const BoundedProportion& judged = judged_rate(goal, verdict);
   verdict.status = status_of(judged, wanted);
   verdict.standing = standing_of(goal, verdict);
   return verdict;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/goal/standing.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_counts.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "experiments/study/goal.hpp"
 
@@ -74,6 +74,12 @@ struct ClaimVerdict : WorldVerdict {
   std::size_t load_setting{0};
   Standing standing{};
 };
+
+/// The proportion by which the goal is judged, with its bounds: of machines if the goal is about machines, of
+/// moves otherwise.
+inline const BoundedProportion& judged_rate(const study::Goal& goal, const WorldVerdict& verdict) {
+  return goal.machines ? verdict.machines : verdict.moves;
+}
 
 /// The verdict on several claims, all of which must be met. It is the verdict on the worst claim (Standing).
 /// Claims rank missed, undecided, met. Ties go to the claim whose lower bound has the smallest margin to the

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
-#include <map>
-#include <mutex>
 #include <ranges>
 #include <type_traits>
 #include <utility>
@@ -24,51 +22,6 @@
 
 namespace zerocount::goal {
 namespace {
-
-const QuestionWords& words_of_goal() {
-  static const QuestionWords words{
-      .subject = "goal",
-      .title = "Moves in the goal",
-      .events = "moves",
-      .meeting = "moves that meet the goal",
-      .meet = "meet the goal",
-      .head = "moves in goal",
-      .rate = "rate of moves in goal",
-      .hits = "moves in goal",
-      .settles = "settles in the goal's band",
-      .failed = "missed the goal",
-      .succeeded = "met the goal",
-      .failure = "miss",
-      .failing = "trials that miss the goal",
-      .trial_rate = "rate of trials in goal",
-      .machine_head = "machines w/o miss",
-      .machine_meaning =
-          "proportion of machines all of whose moves meet the goal (the worst of "
-          "several, under the worst condition)",
-      .falls_short = "fall short of the goal by their observed rates"};
-  return words;
-}
-
-QuestionWords words_of_success(std::string_view of_mass) {
-  return {.subject = "success",
-          .title = "Success",
-          .events = "trials",
-          .meeting = fmt::format("trials that end at zero counts{}", of_mass),
-          .meet = fmt::format("end at zero counts{}", of_mass),
-          .head = "zero-count",
-          .rate = "success rate",
-          .hits = "successes",
-          .settles = "arrives",
-          .failed = "failed",
-          .succeeded = "succeeded",
-          .failure = "failure",
-          .failing = "failed trials",
-          .trial_rate = "success rate",
-          .machine_head = "machines w/o failure",
-          .machine_meaning =
-              fmt::format("proportion of machines all of whose trials ended at zero error{}", of_mass),
-          .falls_short = "are shown to succeed less often than the median world"};
-}
 
 /// Counts of the trials of the design point. Each trial counts as one move, which is met if the trial
 /// succeeds.
@@ -95,8 +48,8 @@ struct CountedClaims {
   std::vector<measures::CellCounts> counts{};
 
   CountedClaims(const Question& question, const measures::PointSummary& point) {
-    for (const JudgedPart& part : question.parts) {
-      goals.push_back(part.claim.value());
+    for (const JudgedCriterion& part : question.parts) {
+      goals.push_back(part.goal.value());
       counts.push_back(point.goals.at(part.number));
     }
   }
@@ -105,7 +58,7 @@ struct CountedClaims {
 /// Whether the settling times for each goal were collected at the design point.
 bool has_settling_times(const Question& question, const measures::PointSummary& point) {
   return std::ranges::all_of(
-      question.parts, [&](const JudgedPart& part) { return part.number < point.goal_settling.size(); });
+      question.parts, [&](const JudgedCriterion& part) { return part.number < point.goal_settling.size(); });
 }
 
 }  // namespace
@@ -127,17 +80,17 @@ Question question_of(const study::Study& study) {
                     .stopped = study.stop.has_value(),
                     .settings = study.settings,
                     .of_mass = study::of_closing_mass(study.features)};
-  const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);
-  for (std::size_t i = 0; i < counted.size(); ++i) {
-    question.parts.push_back({.number = i, .counted = counted[i]});
-    if (!study.goals.empty()) question.parts.back().claim = study.goals[i];
+  const std::vector<measures::MoveCriterion> criteria = measures::move_criteria_of(study);
+  for (std::size_t i = 0; i < criteria.size(); ++i) {
+    question.parts.push_back({.number = i, .criterion = criteria[i]});
+    if (!study.goals.empty()) question.parts.back().goal = study.goals[i];
   }
   return question;
 }
 
 Question only(const Question& question, std::size_t number) {
   Question one = question;
-  std::erase_if(one.parts, [number](const JudgedPart& part) { return part.number != number; });
+  std::erase_if(one.parts, [number](const JudgedCriterion& part) { return part.number != number; });
   return one;
 }
 
@@ -157,32 +110,17 @@ void require_targets(const study::Study& study, std::string_view path) {
                             path));
 }
 
-const QuestionWords& words_of(const Question& question) {
-  if (question.claim()) return words_of_goal();
-  static std::mutex mutex;
-  static std::map<std::string_view, QuestionWords> of_success;  // references into a map stay valid
-  const std::lock_guard lock(mutex);
-  const auto known = of_success.find(question.of_mass);
-  return known != of_success.end()
-             ? known->second
-             : of_success.emplace(question.of_mass, words_of_success(question.of_mass)).first->second;
-}
-
-std::string success_words(const Question& question) {
-  return question.of_mass.empty() ? "succeed" : fmt::format("end at zero counts{}", question.of_mass);
-}
-
 bool meets(const Question& question, std::span<const trial::MoveOutcome> moves) {
-  return std::ranges::all_of(question.parts,
-                             [&](const JudgedPart& part) { return measures::all_meet(part.counted, moves); });
+  return std::ranges::all_of(
+      question.parts, [&](const JudgedCriterion& part) { return measures::all_meet(part.criterion, moves); });
 }
 
 double settling_time(const Question& question, std::span<const trial::MoveOutcome> moves) {
   double latest = 0.0;
   for (const trial::MoveOutcome& move : moves) {
-    for (const JudgedPart& part : question.parts)
-      if (measures::asks(part.counted, move))
-        latest = std::max(latest, measures::lateness(measures::settling_time(part.counted, move)));
+    for (const JudgedCriterion& part : question.parts)
+      if (measures::asks(part.criterion, move))
+        latest = std::max(latest, measures::lateness(measures::settling_time(part.criterion, move)));
   }
   return latest;
 }
@@ -194,7 +132,7 @@ Badness badness_of(const Question& question, std::span<const trial::MoveOutcome>
   const double severity = trial::severity(trial::worst_outcome(moves));
   const auto error = static_cast<double>(final_error);
   const double time = settling_time(question, moves);
-  if (!question.claim()) return {severity, error, time, 0.0};
+  if (!question.goal()) return {severity, error, time, 0.0};
   const auto missed = std::ranges::count_if(moves, [&](const trial::MoveOutcome& move) {
     return !meets(question, {&move, 1});
   });
@@ -205,10 +143,9 @@ Verdict verdict_on(const Question& question, const measures::PointSummary& point
   const CountedClaims claims(question, point);
   Verdict verdict = judge_goals(claims.goals, claims.counts, points);
   for (std::size_t goal = 0; goal < question.parts.size(); ++goal) {
-    const JudgedPart& part = question.parts[goal];
-    if (!part.claim->beside_load || part.number >= point.for_the_load.size()) continue;
-    const Verdict load =
-        judge_goal(study::for_the_load(*part.claim), point.for_the_load[part.number], points);
+    const JudgedCriterion& part = question.parts[goal];
+    if (!part.goal->beside_load || part.number >= point.for_the_load.size()) continue;
+    const Verdict load = judge_goal(study::for_the_load(*part.goal), point.for_the_load[part.number], points);
     // In its own worst setting, which may be another than the motor's.
     const ClaimVerdict& worst =
         *std::ranges::min_element(load.claims, {}, [](const ClaimVerdict& one) { return one.moves.value; });
@@ -239,7 +176,7 @@ Needs needs_of(const Question& question, const measures::PointSummary& point, st
 }
 
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point) {
-  if (!question.claim()) return successes_of(point);
+  if (!question.goal()) return successes_of(point);
   const Verdict verdict = verdict_on(question, point);
   return point.goals.at(question.parts[verdict.goal].number).sum({.setting = verdict.setting});
 }
@@ -247,12 +184,12 @@ measures::MoveCounts counts_of(const Question& question, const measures::PointSu
 std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point) {
   std::vector<GoalTimes> all;
   for (std::size_t i = 0; i < question.parts.size(); ++i) {
-    const JudgedPart& part = question.parts[i];
+    const JudgedCriterion& part = question.parts[i];
     const bool has_own =
         part.number < point.goal_settling.size() && !point.goal_settling[part.number].empty();
     if (!has_own) {
-      const measures::MeasureStatistics& times = measures::named(point, name_of_settling(*part.claim, ""));
-      const double within = part.claim->within.time;
+      const measures::MeasureStatistics& times = measures::named(point, name_of_settling(*part.goal, ""));
+      const double within = part.goal->within.time;
       all.push_back({i, 0, &times, within, measures::lateness(times.p95.value) / within});
       continue;
     }
@@ -275,32 +212,32 @@ const GoalTimes& times_of_claim(const std::vector<GoalTimes>& times, const Claim
 
 const measures::MeasureStatistics& settling_of(const Question& question,
                                                const measures::PointSummary& point) {
-  return question.claim()
+  return question.goal()
              ? *times_of_claim(goal_times(question, point), verdict_on(question, point)).statistics
              : point.of(&trial::MoveOutcome::arrival_time);
 }
 
 std::string settling_measure(const Question& question) {
-  return question.claim() ? name_of_settling(*question.claim(), "") : "arrival_time";
+  return question.goal() ? name_of_settling(*question.goal(), "") : "arrival_time";
 }
 
 std::vector<std::string> settling_measures(const Question& question) {
-  if (!question.claim()) return {settling_measure(question)};
+  if (!question.goal()) return {settling_measure(question)};
   std::vector<std::string> names;
-  for (const JudgedPart& part : question.parts) names.push_back(name_of_settling(*part.claim));
+  for (const JudgedCriterion& part : question.parts) names.push_back(name_of_settling(*part.goal));
   return names;
 }
 
 statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Question& question) {
-  return question.claim() ? &measures::MeasureStatistics::p95 : &measures::MeasureStatistics::median;
+  return question.goal() ? &measures::MeasureStatistics::p95 : &measures::MeasureStatistics::median;
 }
 
 std::string settling_statistic(const Question& question) {
-  return question.claim() ? name_of_settling(*question.claim(), "_p95") : "arrival_time_median";
+  return question.goal() ? name_of_settling(*question.goal(), "_p95") : "arrival_time_median";
 }
 
 std::vector<double> merits_of(const Question& question, const measures::PointSummary& point) {
-  if (!question.claim()) {
+  if (!question.goal()) {
     return {statistics::rate(point.outcomes.zero_count, point.trials),
             -measures::lateness((settling_of(question, point).*settling_quantile(question)).value)};
   }
@@ -320,7 +257,7 @@ std::vector<double> merits_of(const Question& question, const measures::PointSum
 
 QuestionRate rate_of(const Question& question, const measures::PointSummary& point, std::size_t points,
                      double confidence) {
-  if (!question.claim()) {
+  if (!question.goal()) {
     return {point.success_rate().value, bounds_of_chosen(point, points, question.stopped, confidence),
             point.outcomes.zero_count, point.trials};
   }
@@ -339,11 +276,11 @@ QuestionRate rate_of(const Question& question, const measures::PointSummary& poi
 
 MachinesWithoutFailure machines_without_failure(const Question& question,
                                                 const measures::PointSummary& point) {
-  if (!question.claim())
+  if (!question.goal())
     return {std::llround(point.machines.without_failure * static_cast<double>(point.machines.n)),
             point.machines.n};
   std::vector<bool> without(point.goals.front().sum().machines.size(), true);
-  for (const JudgedPart& part : question.parts) {
+  for (const JudgedCriterion& part : question.parts) {
     const measures::MoveCounts counts = point.goals[part.number].sum();
     for (std::size_t machine = 0; machine < without.size(); ++machine)
       without[machine] = without[machine] && counts.machines[machine].met == counts.machines[machine].moves;
@@ -354,11 +291,11 @@ MachinesWithoutFailure machines_without_failure(const Question& question,
 std::optional<MachinesWithoutFailure> machines_meeting_all(const Question& question,
                                                            const measures::PointSummary& point) {
   std::vector<std::pair<double, measures::MoveCounts>> claims;  // proportion of moves, of these
-  for (const JudgedPart& part : question.parts) {
-    if (!part.claim || !part.claim->machines) continue;
+  for (const JudgedCriterion& part : question.parts) {
+    if (!part.goal || !part.goal->machines) continue;
     const measures::CellCounts& counts = point.goals[part.number];
     for (std::size_t setting = 0; setting < counts.settings(); ++setting)
-      claims.emplace_back(part.claim->moves, counts.sum({.setting = setting}));
+      claims.emplace_back(part.goal->moves, counts.sum({.setting = setting}));
   }
   if (claims.size() < 2) return std::nullopt;
   MachinesWithoutFailure meeting{0, std::ssize(claims.front().second.machines)};
@@ -375,17 +312,8 @@ const BoundedProportion& judged_rate(const Question& question, const WorldVerdic
   return is_of_machines(question) ? world.machines : world.moves;
 }
 
-std::string_view judged_head(const Question& question) {
-  return is_of_machines(question) ? "machines in goal" : words_of(question).head;
-}
-
-std::string_view judged_meeting(const Question& question) {
-  return is_of_machines(question) ? std::string_view("machines that meet the goal")
-                                  : std::string_view(words_of(question).meeting);
-}
-
 double confidence_of(const Question& question, double others) {
-  return question.claim() ? question.claim()->confidence : others;
+  return question.goal() ? question.goal()->confidence : others;
 }
 
 statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, std::size_t points,
@@ -439,8 +367,8 @@ ClaimsAtAge claims_at_age(const Question& question, const std::vector<measures::
   const std::vector<std::int64_t> settings =
       study::settings_at_age(question.settings.counts(), static_cast<std::int64_t>(age));
   ClaimsAtAge claims;
-  for (const JudgedPart& part : question.parts) {
-    study::Goal goal = *part.claim;
+  for (const JudgedCriterion& part : question.parts) {
+    study::Goal goal = *part.goal;
     goal.machines = goal.machines.value_or(usual_machines);
     std::vector<ClaimAtAge>& of_goal = claims.emplace_back();
     for (const std::int64_t setting : settings) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/proportion.hpp"
@@ -21,18 +21,19 @@
 /// trials, machines, worlds and design points takes its criteria, and the words for them, from here.
 namespace zerocount::goal {
 
-/// One criterion that moves must meet: a goal of the study, or success (the move ends at zero counts).
-struct JudgedPart {
+/// One criterion that moves must meet: that of a goal, or success (the move ends at zero counts).
+struct JudgedCriterion {
   std::size_t number{0};  ///< Index of the goal in Study::goals; 0 for the criterion of success.
-  /// The goal, a claim about all machines; null for the criterion of success.
-  std::optional<study::Goal> claim{};
-  measures::CountedGoal counted{};  ///< Criterion by which moves are counted: they meet the goal, or succeed.
+  /// The goal, which demands that a proportion of moves or of machines meets the criterion; null for the
+  /// criterion of success.
+  std::optional<study::Goal> goal{};
+  measures::MoveCriterion criterion{};  ///< Criterion by which moves are counted.
 };
 
 /// The criteria by which a study is judged. All parts must be met: one for each goal of the study, or one
 /// for success.
 struct Question {
-  std::vector<JudgedPart> parts{JudgedPart{}};
+  std::vector<JudgedCriterion> parts{JudgedCriterion{}};
   /// Number of worlds (draws of what all machines share); the criteria must be met in each. 0: no worlds.
   std::int64_t worlds{0};
   bool stopped{false};  ///< True: the outcomes of the trials decided when the study stopped (key `stop`).
@@ -43,8 +44,8 @@ struct Question {
   std::string_view of_mass{};
 
   /// The first goal; null if the study has none and is judged by success.
-  const std::optional<study::Goal>& claim() const { return parts.front().claim; }
-  const measures::CountedGoal& counted() const { return parts.front().counted; }
+  const std::optional<study::Goal>& goal() const { return parts.front().goal; }
+  const measures::MoveCriterion& criterion() const { return parts.front().criterion; }
 };
 
 Question question_of(const study::Study& study);
@@ -59,7 +60,7 @@ inline bool has_several(const Question& question) {
 /// Whether the goals have names. They have names if they are in the manifest's `goals`, which may hold a
 /// single goal.
 inline bool has_names(const Question& question) {
-  return question.claim() && !question.claim()->name.empty();
+  return question.goal() && !question.goal()->name.empty();
 }
 /// The question restricted to the part with the index `number`, to judge a point by its worst goal
 /// (Verdict::goal).
@@ -76,40 +77,9 @@ void require_targets(const study::Study& study, std::string_view path);
 /// The question in which success (all moves end at zero counts) takes the place of the goals.
 inline Question success(const Question& question) {
   Question without = question;
-  without.parts = {JudgedPart{}};
+  without.parts = {JudgedCriterion{}};
   return without;
 }
-
-/// The words that answers use for the question. If the study has a goal, answers count moves; otherwise they
-/// count trials, because a trial succeeds as a whole. On an axis with two masses, "zero counts" names the
-/// mass whose encoder is read.
-struct QuestionWords {
-  std::string_view subject;  ///< Noun for what must be met: "goal", "success".
-  std::string_view title;    ///< Title of figures: "Moves in the goal", "Success".
-  std::string_view events;   ///< Noun for what is counted: "moves", "trials".
-  /// Noun for what meets the question: "moves that meet the goal", "trials that end at zero counts".
-  std::string meeting;
-  std::string meet;            ///< Predicate of moves: "meet the goal", "end at zero counts".
-  std::string_view head;       ///< Column head of the proportion: "moves in goal", "zero-count".
-  std::string_view rate;       ///< Noun for the proportion: "rate of moves in goal", "success rate".
-  std::string_view hits;       ///< Noun for the number of successes: "moves in goal", "successes".
-  std::string_view settles;    ///< Predicate of a move: "settles in the goal's band", "arrives".
-  std::string_view failed;     ///< Predicate of a trial: "missed the goal", "failed".
-  std::string_view succeeded;  ///< Predicate of what succeeded: "met the goal", "succeeded".
-  std::string_view failure;    ///< Noun for one failure: "miss", "failure".
-  std::string_view failing;    ///< Noun for trials that fail: "trials that miss the goal", "failed trials".
-  /// Noun for the proportion of trials that succeed: "rate of trials in goal", "success rate".
-  std::string_view trial_rate;
-  /// Column head for the number of machines without a failure: "machines w/o miss", "machines w/o failure".
-  std::string_view machine_head;
-  /// Meaning of the proportion of machines without a failure: "proportion of machines all of whose moves meet
-  /// the goal" …
-  std::string machine_meaning;
-  std::string_view falls_short;  ///< Predicate of worlds: "fall short of the goal by their observed rates" …
-};
-const QuestionWords& words_of(const Question& question);
-/// Predicate for trials that succeed: "succeed", with two masses "end at zero counts of the motor".
-std::string success_words(const Question& question);
 
 /// Whether a trial with these moves meets the question: all moves meet the goals that judge them or, without
 /// goals, all succeed.
@@ -136,7 +106,7 @@ std::vector<Needs> deciding_studies(const Question& question, const measures::Po
                                     std::size_t points);
 Needs needs_of(const Question& question, const measures::PointSummary& point, std::size_t points);
 
-/// Counts of the moves of a point that are judged, and of those that meet the worst claim. Without a claim:
+/// Counts of the moves of a point that are judged, and of those that meet the worst claim. Without a goal:
 /// counts of the trials, each as one move, and of those that succeed.
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point);
 
@@ -163,7 +133,7 @@ GoalTimes slowest_goal_times(const Question& question, const measures::PointSumm
 /// The element of `times` for the goal and the setting of the claim.
 /// @param times goal_times() of the same point
 const GoalTimes& times_of_claim(const std::vector<GoalTimes>& times, const ClaimVerdict& claim);
-/// Statistics of the final settling time for the worst claim at a point; without a claim, of the arrival
+/// Statistics of the final settling time for the worst claim at a point; without a goal, of the arrival
 /// time.
 const measures::MeasureStatistics& settling_of(const Question& question, const measures::PointSummary& point);
 
@@ -183,12 +153,12 @@ statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Quest
 /// Name of the statistic of settling_quantile() in files: "band_settling_time_p95[2]", "arrival_time_median".
 std::string settling_statistic(const Question& question);
 
-/// Numbers by which design points are compared, the most important one first; larger is better. With a claim:
+/// Numbers by which design points are compared, the most important one first; larger is better. With a goal:
 /// number of goals met, standing of the worst claim, and minus the largest proportion of the allowed time
-/// (slowest_goal_times()). Without a claim: success rate, and minus the median of the arrival time.
+/// (slowest_goal_times()). Without a goal: success rate, and minus the median of the arrival time.
 std::vector<double> merits_of(const Question& question, const measures::PointSummary& point);
 
-/// Proportion at a design point of moves that meet the worst claim; without a claim, of trials that succeed.
+/// Proportion at a design point of moves that meet the worst claim; without a goal, of trials that succeed.
 /// With worlds and a claim: proportion in the worst world, with the lowest bounds of all worlds.
 struct QuestionRate {
   double value{statistics::unknown};
@@ -216,13 +186,9 @@ MachinesWithoutFailure machines_without_failure(const Question& question,
 /// The proportion by which a claim is judged in a world: of machines if the claim is about machines,
 /// otherwise of moves.
 const BoundedProportion& judged_rate(const Question& question, const WorldVerdict& world);
-/// Noun for what judged_rate() counts, in a column head and in a sentence: "machines in goal" and "machines
-/// that meet the goal", or QuestionWords::head and ::meeting.
-std::string_view judged_head(const Question& question);
-std::string_view judged_meeting(const Question& question);
 /// Whether the first goal demands a proportion of machines, not only of moves.
 inline bool is_of_machines(const Question& question) {
-  return question.claim() && question.claim()->machines;
+  return question.goal() && question.goal()->machines;
 }
 
 /// Number of machines of a point that meet every goal on machines, each in its proportion of moves, under
@@ -232,7 +198,7 @@ std::optional<MachinesWithoutFailure> machines_meeting_all(const Question& quest
 
 /// Whether QuestionRate describes the worst world, because the question has a goal and worlds.
 inline bool is_of_worst_world(const Question& question) {
-  return question.worlds > 0 && question.claim();
+  return question.worlds > 0 && question.goal();
 }
 
 /// Confidence of the bounds by which the question is judged: that of the first goal, or `others` without one.

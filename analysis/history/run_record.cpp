@@ -210,7 +210,7 @@ RunValue proportion_value(const std::string& label, std::string measure, const g
 /// @param label label of the point
 std::vector<RunValue> goal_values(const goal::Question& question, const measures::PointSummary& point,
                                   const std::string& label, double confidence) {
-  study::Goal both_sides = *question.claim();
+  study::Goal both_sides = *question.goal();
   both_sides.confidence = 0.5 * (1.0 + confidence);
   const measures::CellCounts& counts = point.goals[question.parts.front().number];
   const goal::Verdict verdict = goal::judge_goal(both_sides, counts, 1);
@@ -241,8 +241,8 @@ void add_values(std::vector<RunValue>& values, const summary::StudySummary& summ
     const measures::PointSummary& point = summary.points[i];
     const std::string label = study::label_under(summary.labels[i], setting);
     std::vector<RunValue> of_point;
-    for (const goal::JudgedPart& part : summary.question.parts) {
-      if (!part.claim) continue;  // success is one of the gate measures
+    for (const goal::JudgedCriterion& part : summary.question.parts) {
+      if (!part.goal) continue;  // success is one of the gate measures
       std::ranges::move(goal_values(only(summary.question, part.number), point, label, summary.confidence),
                         std::back_inserter(of_point));
     }

@@ -67,12 +67,12 @@ void add_each(std::vector<Summand>& sums, const std::vector<Summand>& added) {
 }  // namespace
 
 MoveKind move_kind(const study::Study& study) {
-  MoveKind kind{.open_loop = study.open_loop, .shape = shape_of(study), .goals = counted_goals(study)};
+  MoveKind kind{.open_loop = study.open_loop, .shape = shape_of(study), .goals = criteria_of_goals(study)};
   kind.has_observed_counts = !study.observed_counts.empty();
   if (std::ranges::none_of(study.goals, &study::Goal::beside_load)) return kind;
   for (const study::Goal& goal : study.goals)
-    kind.for_the_load.push_back(goal.beside_load ? counted_by(study::for_the_load(goal), study.features)
-                                                 : std::nullopt);
+    kind.for_the_load.push_back(
+        goal.beside_load ? move_criterion_of(study::for_the_load(goal), study.features) : std::nullopt);
   return kind;
 }
 
@@ -113,7 +113,7 @@ PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTa
       for_the_load_(kind.for_the_load.size(), CellCounts(kind.shape)),
       groups_{CellCounts(kind.shape), CellCounts(kind.shape)},
       trial_settling_times_(kind.shape.machines) {
-  for (const CountedGoal& goal : kind.goals) goal_settling_.emplace_back(goal, kind.shape);
+  for (const MoveCriterion& goal : kind.goals) goal_settling_.emplace_back(goal, kind.shape);
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
 
@@ -183,7 +183,7 @@ void PointAccumulator::add_to_groups(std::span<const trial::MoveOutcome> moves) 
   groups_.succeeded.add(trial, 1, trial::succeeded(moves) ? 1 : 0);
   if (kind_.goals.empty()) return;
   const bool meeting =
-      std::ranges::all_of(kind_.goals, [&](const CountedGoal& goal) { return all_meet(goal, moves); });
+      std::ranges::all_of(kind_.goals, [&](const MoveCriterion& goal) { return all_meet(goal, moves); });
   groups_.meeting.add(trial, 1, meeting ? 1 : 0);
 }
 

@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/goal_settling.hpp"
 #include "analysis/measures/measure_statistics.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/change_point.hpp"
 #include "analysis/statistics/clusters/clustered_mean.hpp"
@@ -31,10 +32,10 @@ struct MovesOfTrials {
 struct MoveKind {
   bool open_loop{false};  ///< True: the moves are torque levels of an open-loop study and have no targets.
   Shape shape{};
-  std::vector<CountedGoal> goals{};
+  std::vector<MoveCriterion> goals{};
   /// [goal] The same criterion applied to the load instead of the motor, if the goal has
   /// study::Goal::beside_load; otherwise null. The vector is empty if no goal has it.
-  std::vector<std::optional<CountedGoal>> for_the_load{};
+  std::vector<std::optional<MoveCriterion>> for_the_load{};
 
   bool has_observed_counts{false};  ///< Whether the study is compared with counts observed on a real machine.
 

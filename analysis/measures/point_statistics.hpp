@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/goal_settling.hpp"
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/clusters/machine_statistics.hpp"

@@ -39,10 +39,6 @@ std::optional<double> ranked_value(const layout::Measure& measure, const trial::
   return value || ran_to_its_end(move) ? value : worst_value(measure.values);
 }
 
-bool is_within(std::optional<double> value, double largest) {
-  return !value || std::abs(*value) <= largest;
-}
-
 bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves) {
   return !measure.values.needs_target ||
          std::none_of(moves.begin(), moves.end(), [](const trial::MoveOutcome& move) {

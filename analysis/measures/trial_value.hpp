@@ -34,9 +34,6 @@ std::optional<double> ranked_value(const layout::CountedValues& values, double v
 /// because the move was stopped or its motion was lost, it is infinite for any measure. A move that was not
 /// run has only times, and these count as never reached.
 std::optional<double> ranked_value(const layout::Measure& measure, const trial::MoveOutcome& move);
-/// Whether the magnitude of a value of ranked_value() is at most `largest`. A null value (nothing to measure)
-/// meets every limit.
-bool is_within(std::optional<double> value, double largest);
 
 /// Whether the measure applies to these moves: they have targets, or the measure needs none.
 bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves);

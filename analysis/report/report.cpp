@@ -45,13 +45,13 @@ void add(ReportPage& page, PageSection section) {
 /// Whether the only verdict is that on the first screen: the study has a goal and one design point. The
 /// tables of points then describe only zero counts.
 bool has_one_verdict(const ReportedStudy& reported) {
-  return reported.summary.points.size() == 1 && question_of(reported).claim();
+  return reported.summary.points.size() == 1 && question_of(reported).goal();
 }
 
 PageSection success_section(const ReportedStudy& reported) {
-  const char* title = reported.study.open_loop        ? "$Torque levels"
-                      : question_of(reported).claim() ? "The goal"
-                                                      : "Success";
+  const char* title = reported.study.open_loop       ? "$Torque levels"
+                      : question_of(reported).goal() ? "The goal"
+                                                     : "Success";
   PageSection section{"points", title, "", {}};
   std::vector<Figure> maps = stability_maps(reported);
   // A map shows many points better than a table.
@@ -72,7 +72,7 @@ std::vector<Figure> under_worst_setting(const ReportedStudy& reported, std::vect
 /// a goal.
 PageSection zero_count_section(const ReportedStudy& reported) {
   PageSection section{"zero-counts", "Zero counts", "", {}};
-  if (!question_of(reported).claim()) return section;
+  if (!question_of(reported).goal()) return section;
   section.html = zero_counts_html(reported);
   if (has_one_verdict(reported)) section.html += html_folded("Numbers", points_html(reported));
   return section;

@@ -35,7 +35,7 @@ void add_settings(ReportedStudy& reported) {
   }
   const goal::Question& question = question_of(reported);
   const std::int64_t chosen = reported.chosen.point;
-  reported.worst_setting = question.claim()
+  reported.worst_setting = question.goal()
                                ? verdict_on(question, point_of(reported, chosen)).setting
                                : summary::worst_cell(summary::settings_of_point(reported.summary, chosen));
 }
@@ -91,11 +91,11 @@ goal::QuestionRate shown_rate(const ReportedStudy& reported, std::int64_t point)
 }
 
 std::string shown_bounds(const ReportedStudy& reported) {
-  if (!question_of(reported).claim())
+  if (!question_of(reported).goal())
     return reported.study.stop       ? "95 % bounds that hold at whatever trial one stops"
            : reported.study.machines ? "95 % Korn-Graubard bounds"
                                      : "95 % Clopper-Pearson bounds";
-  return fmt::format("one-sided {} bounds", text::percent(question_of(reported).claim()->confidence));
+  return fmt::format("one-sided {} bounds", text::percent(question_of(reported).goal()->confidence));
 }
 
 std::string precision_text(const ReportedStudy& reported, const study::Goal& goal) {

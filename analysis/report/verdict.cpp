@@ -32,7 +32,7 @@ std::string bounds_text(const ReportedStudy& reported, const goal::Question& que
   const std::size_t points = chosen_from(reported, point);
   const statistics::ConfidenceInterval bounds =
       goal::rate_of(question, point_of(reported, point), points).bounds;
-  return fmt::format(" ({}{} bounds {} to {}{})", question.claim() ? "one-sided " : "",
+  return fmt::format(" ({}{} bounds {} to {}{})", question.goal() ? "one-sided " : "",
                      text::percent(goal::confidence_of(question, statistics::summary_confidence)),
                      text::percent_at_least(bounds.low), text::percent_at_most(bounds.high),
                      points == 1 ? "" : fmt::format(", corrected for the choice among {} points", points));
@@ -96,7 +96,7 @@ void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
                              *worlds, summary::world_inputs_of(reported.summary, judged.chosen.point),
                              reported.summary.question));
   if (judged.needs)
-    lines.push_back(goal::needs_sentence(*question.parts[judged.verdict.goal].claim, *judged.needs,
+    lines.push_back(goal::needs_sentence(*question.parts[judged.verdict.goal].goal, *judged.needs,
                                          reported.summary.features.machines) +
                     ".");
 }
@@ -122,7 +122,7 @@ void add_success(std::vector<std::string>& lines, const ReportedStudy& reported,
 void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const std::vector<measures::PointSummary>& points = reported.summary.points;
   if (points.size() == 1) return;
-  const goal::QuestionWords& words = words_of(question_of(reported));
+  const bool has_goal = question_of(reported).goal().has_value();
   std::vector<goal::QuestionRate> rates;
   for (std::int64_t point = 0; point < std::ssize(points); ++point)
     rates.push_back(shown_rate(reported, point));
@@ -133,14 +133,18 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported, 
                                                : fmt::format("{} of the {} points {}", flawless,
                                                              points.size(), flawless == 1 ? "is" : "are");
   if (worst->value == rates[static_cast<std::size_t>(best)].value) {
-    lines.push_back(
-        fmt::format("{} without a {}; no other {} less often.", proportion, words.failure, words.succeeded));
+    lines.push_back(has_goal
+                        ? fmt::format("{} without a miss; no other met the goal less often.", proportion)
+                        : fmt::format("{} without a failure; no other succeeded less often.", proportion));
     return;
   }
   const std::int64_t at = worst - rates.begin();
-  lines.push_back(fmt::format("{} without a {}. The worst, {}, {} in {} of {} {}{}.", proportion,
-                              words.failure, label_of(reported, at), words.succeeded, worst->hits,
-                              worst->events, words.events, bounds_text(reported, question_of(reported), at)));
+  const std::string bounds = bounds_text(reported, question_of(reported), at);
+  lines.push_back(has_goal
+                      ? fmt::format("{} without a miss. The worst, {}, met the goal in {} of {} moves{}.",
+                                    proportion, label_of(reported, at), worst->hits, worst->events, bounds)
+                      : fmt::format("{} without a failure. The worst, {}, succeeded in {} of {} trials{}.",
+                                    proportion, label_of(reported, at), worst->hits, worst->events, bounds));
 }
 
 /// Design points at which a theoretical stability criterion gives the same prediction for every trial, with
@@ -204,7 +208,7 @@ Conclusions conclusions_of(const ReportedStudy& reported) {
   const std::int64_t best = reported.chosen.point;
   std::vector<std::string> lines;
   std::optional<summary::JudgedPoint> judged;
-  if (question_of(reported).claim()) judged = summary::judge_point(reported.summary, reported.chosen);
+  if (question_of(reported).goal()) judged = summary::judge_point(reported.summary, reported.chosen);
   if (reported.summary.features.dependent_trials) {
     lines.push_back(
         fmt::format("{} Statements about all axes, with bounds, need a study with `design: monte_carlo`.",

@@ -64,7 +64,7 @@ std::vector<SensitivityOutput> outputs_of(const goal::Question& question, const 
   return {
       {.name = "goal" + name,
        .unit = "1",
-       .meaning = several || !question.counted().on.empty()
+       .meaning = several || !question.criterion().on.empty()
                       ? fmt::format("all moves that {} {} about met {}", which, several ? "are" : "is",
                                     several ? "them" : "it")
                       : "all moves met the goal",
@@ -90,10 +90,10 @@ std::vector<SensitivityOutput> outputs_of(const goal::Question& question, const 
 /// named goal.
 std::vector<SensitivityOutput> goal_outputs(const goal::Question& question) {
   std::vector<SensitivityOutput> outputs = outputs_of(question, "");
-  for (const goal::JudgedPart& part : question.parts) {
+  for (const goal::JudgedCriterion& part : question.parts) {
     if (!has_several(question)) break;
     std::vector<SensitivityOutput> own =
-        outputs_of(only(question, part.number), fmt::format("[{}]", part.claim->name));
+        outputs_of(only(question, part.number), fmt::format("[{}]", part.goal->name));
     std::ranges::move(own, std::back_inserter(outputs));
   }
   return outputs;
@@ -264,7 +264,7 @@ PointSensitivity sensitivity_at(const reading::AllTrialsFile& file, const measur
 std::vector<SensitivityOutput> sensitivity_outputs(const layout::MeasureTable& measures,
                                                    const goal::Question& question) {
   std::vector<SensitivityOutput> outputs;
-  if (question.claim()) outputs = goal_outputs(question);
+  if (question.goal()) outputs = goal_outputs(question);
   for (const layout::Measure* measure :
        layout::measures_of(measures, layout::ReportOrder::outputs,
                            [](const layout::Measure& m) { return m.output.has_value(); }))

@@ -12,6 +12,7 @@
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/question.hpp"
+#include "analysis/goal/question_text.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/text/text.hpp"
@@ -28,7 +29,7 @@ struct Point {
 
   Point(const StudySummary& of, std::int64_t number, std::size_t points)
       : summary(of), statistics(of.points[static_cast<std::size_t>(number)]) {
-    if (!of.question.claim() || statistics.judged == 0) return;
+    if (!of.question.goal() || statistics.judged == 0) return;
     verdict = verdict_on(of.question, statistics, points);
     times = goal_times(of.question, statistics);
   }
@@ -63,10 +64,10 @@ std::optional<double> known(double value) {
 
 /// Copies the name of the goal, the proportions and the status of a verdict into the cell.
 void judge(CellOfPoint& cell, const goal::Question& question, const goal::ClaimVerdict& verdict) {
-  const study::Goal& goal = *question.parts[verdict.goal].claim;
+  const study::Goal& goal = *question.parts[verdict.goal].goal;
   if (!goal.name.empty()) cell.goal = goal.name;
   cell.rate = verdict.moves;
-  cell.judged = goal.machines ? verdict.machines : verdict.moves;
+  cell.judged = judged_rate(goal, verdict);
   if (goal.machines) cell.machines = verdict.machines;
   cell.status = verdict.status;
 }
@@ -155,7 +156,7 @@ std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t
   const auto& counts = point.statistics.goals;
   const std::vector<goal::BoundedProportion> machines = goal::machines_at_ages(question, counts);
   const std::vector<goal::Survival> survival =
-      goal::survival_of(goal::lives_of_machines(question, counts), at, question.claim()->confidence);
+      goal::survival_of(goal::lives_of_machines(question, counts), at, question.goal()->confidence);
   for (std::size_t age = 0; age < at.size(); ++age) {
     cells[age].machines = machines[age];
     cells[age].living = survival[age].living;
@@ -165,7 +166,7 @@ std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t
 
 document::Description<CellOfPoint> cell_description(const goal::Question& question, CellsBy by) {
   const bool claims = by == CellsBy::claim;
-  const bool with_goal = claims || question.claim();
+  const bool with_goal = claims || question.goal();
   const auto bounded = [](std::optional<goal::BoundedProportion> CellOfPoint::*proportion) {
     return [proportion](const CellOfPoint& c) -> std::optional<document::Bounded> {
       if (!(c.*proportion)) return std::nullopt;
@@ -286,7 +287,7 @@ std::optional<double> missed_from(const std::vector<CellOfPoint>& ages) {
 }
 
 std::string ages_sentence(const goal::Question& question, const std::vector<CellOfPoint>& ages) {
-  if (ages.empty() || !question.claim()) return {};
+  if (ages.empty() || !question.goal()) return {};
   const auto text = [&](double age) { return study::age_text(question.settings.ages, age); };
   const std::optional<double> met = met_until(ages);
   const std::optional<double> missed = missed_from(ages);
@@ -408,7 +409,7 @@ void add_judged_rates(Description<WorldsAtPoint>& description, const goal::Quest
     return document::Item{.heading = std::move(heading), .unit = "1", .notation = Notation::percent};
   };
   description
-      .value(column(fmt::format("{} worst [bounds]", goal::judged_head(question))),
+      .value(column(fmt::format("{} worst [bounds]", goal::head_of_judged_rate(question))),
              [](const WorldsAtPoint& r) { return goal::bounded(r.point.asked.lowest); })
       .value(column("median"), [](const WorldsAtPoint& r) { return r.point.asked.median; })
       .value(column("best"),
@@ -472,7 +473,8 @@ std::string bad_worlds_sentence(const worlds::PointWorlds& point,
                                 const goal::Question& question) {
   const auto bad = std::count(point.bad.begin(), point.bad.end(), true);
   const std::int64_t all = std::ssize(point.bad);
-  const std::string_view what = goal::words_of(question).falls_short;
+  const std::string_view what = question.goal() ? "fall short of the goal by their observed rates"
+                                                : "are shown to succeed less often than the median world";
   if (bad == 0 || bad == all) return fmt::format("{} of {} worlds {}", bad == 0 ? "none" : "all", all, what);
   if (!point.rule) {
     return fmt::format(
@@ -519,7 +521,7 @@ Description<WorldsAtPoint> worlds_description(const goal::Question& question) {
                return of_verdicts(r.point,
                                   [](const goal::WorldVerdict& w) { return goal::text_of(w.status); });
              });
-  if (question.claim()) {
+  if (question.goal()) {
     for (const goal::Status status : {goal::Status::met, goal::Status::missed, goal::Status::undecided})
       add_number_of_worlds(description, status, status != goal::Status::undecided);
   }

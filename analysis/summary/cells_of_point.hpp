@@ -37,7 +37,8 @@ struct CellOfPoint {
   /// Proportion of moves that meet the worst goal in the worst setting. Without a goal: proportion of
   /// trials that succeed in the worst setting.
   goal::BoundedProportion rate{};
-  goal::BoundedProportion judged{};  ///< Proportion of machines, moves or trials; see judged_head().
+  goal::BoundedProportion
+      judged{};  ///< Proportion of machines, moves or trials; see goal::noun_of_judged_rate().
   /// Proportion of machines that meet the goal; empty if the goal is not about machines, except for ages.
   std::optional<goal::BoundedProportion> machines{};
   /// Proportion of machines that meet the goal at every age up to this one; only for a cell of an age

@@ -14,7 +14,8 @@
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/question.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/goal/question_text.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/distributions.hpp"
@@ -57,7 +58,7 @@ std::vector<double> rates_of_machines(const goal::Question& question, const meas
   std::vector<double> rates;
   for (const statistics::MachineMoves& machine : counts.machines) {
     const double met = statistics::rate(machine.met, machine.moves);
-    rates.push_back(!is_of_machines(question) ? met : met >= question.claim()->moves ? 1.0 : 0.0);
+    rates.push_back(!is_of_machines(question) ? met : met >= question.goal()->moves ? 1.0 : 0.0);
   }
   return rates;
 }
@@ -92,7 +93,7 @@ bool has_worse_world(const goal::Question& question, const measures::PointSummar
                      const measures::PointSummary& other) {
   const auto alone = [&](const measures::PointSummary& point) {
     const measures::CellCounts& counts = point.goals[question.parts.front().number];
-    return goal::judge_goal(*question.claim(), counts.in_setting(verdict_on(question, point).setting), 1);
+    return goal::judge_goal(*question.goal(), counts.in_setting(verdict_on(question, point).setting), 1);
   };
   const goal::Verdict of_best = alone(best);
   const goal::Verdict of_other = alone(other);
@@ -160,7 +161,7 @@ ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t
   if (summary.features.open_loop) return chosen;
   const measures::PointSummary& best = point_of(summary, chosen.point);
   const auto is_worse = [&](std::int64_t other) {
-    return std::ranges::any_of(summary.question.parts, [&](const goal::JudgedPart& part) {
+    return std::ranges::any_of(summary.question.parts, [&](const goal::JudgedCriterion& part) {
       const goal::Question question = only(summary.question, part.number);
       return is_shown_worse(question, best, point_of(summary, other));
     });
@@ -192,7 +193,7 @@ std::string claim_of_chosen_point(const StudySummary& summary, const ChosenPoint
   return name + averaged_over(summary) +
          statistics::claim_sentence(goal::claim_of_chosen(point, static_cast<std::size_t>(chosen.chosen_from),
                                                           summary.question.stopped),
-                                    goal::success_words(summary.question));
+                                    goal::success_predicate(summary.question));
 }
 
 std::string competition_text(const StudySummary& summary, const ChosenPoint& chosen) {
@@ -289,7 +290,7 @@ const measures::PointSummary& statistics_of(const StudySummary& summary, std::in
 
 /// The goal that belongs to the worst claim of the verdict.
 const study::Goal& worst_goal(const StudySummary& summary, const goal::Verdict& verdict) {
-  return *summary.question.parts[verdict.goal].claim;
+  return *summary.question.parts[verdict.goal].goal;
 }
 
 /// Names of the goals that are missed: "'large' and 'small'". Empty if fewer than two are missed.
@@ -297,7 +298,7 @@ std::string missed_goals(const goal::Question& question, const goal::Verdict& ve
   std::vector<std::string> names;
   for (std::size_t i = 0; i < question.parts.size(); ++i) {
     if (worst_of_goal(verdict, i).status == goal::Status::missed)
-      names.push_back(fmt::format("'{}'", question.parts[i].claim->name));
+      names.push_back(fmt::format("'{}'", question.parts[i].goal->name));
   }
   if (names.size() < 2) return "";
   const std::string last = names.back();
@@ -368,7 +369,7 @@ std::optional<SaturatedMoves> saturated_moves(const std::filesystem::path& path,
   if (layout::has_sums(study.retention)) return {};
   const reading::AllTrialsFile all(path);
   const reading::AllTrialsFile file = all.in_setting(static_cast<std::int64_t>(claim.setting));
-  const measures::CountedGoal goal = measures::asked_of_moves(study)[claim.goal];
+  const measures::MoveCriterion goal = measures::move_criteria_of(study)[claim.goal];
   const std::int64_t trials = file.header().trials;
   SaturatedMoves counts;
   measures::visit_trials(file, {claim.point * trials, trials}, [&](std::int64_t, const auto& moves) {

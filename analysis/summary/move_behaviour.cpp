@@ -65,7 +65,7 @@ void BehaviourCounter::RowValues::add(const trial::MoveOutcome& move, const Tria
 
 BehaviourCounter::BehaviourCounter(const study::Study& study)
     : study_(study),
-      goals_(measures::asked_of_moves(study)),
+      goals_(measures::move_criteria_of(study)),
       settings_(static_cast<std::size_t>(study.settings.total())),
       rows_((goals_.size() + 1) * settings_) {}
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::summary {
@@ -89,7 +89,7 @@ class BehaviourCounter {
   MoveBehaviour behaviour_of(const RowValues& values, std::size_t goal, std::size_t setting) const;
 
   const study::Study& study_;
-  std::vector<measures::CountedGoal> goals_;
+  std::vector<measures::MoveCriterion> goals_;
   std::size_t settings_;
   /// [goal][setting] Values of the moves; the last goal stands for moves that no goal judges.
   std::vector<RowValues> rows_;

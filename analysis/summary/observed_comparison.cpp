@@ -21,9 +21,9 @@ struct AskedTrials {
 };
 
 AskedTrials asked_trials(const goal::Question& question, const measures::PointSummary& point) {
-  if (!question.claim() && !point.trials_of_groups) return {goal::counts_of(question, point), {}};
+  if (!question.goal() && !point.trials_of_groups) return {goal::counts_of(question, point), {}};
   const measures::GroupTrials& trials = point.trials_of_groups.value();
-  const measures::CellCounts& asked = question.claim() ? trials.meeting : trials.succeeded;
+  const measures::CellCounts& asked = question.goal() ? trials.meeting : trials.succeeded;
   return {asked.sum(), asked.by_world()};
 }
 

@@ -29,14 +29,14 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
   document::Description<goal::ClaimVerdict> description;
   const std::string where = question.worlds > 0 ? " (worst world)" : "";
   const bool has_machines = std::ranges::any_of(
-      question.parts, [](const goal::JudgedPart& part) { return part.claim->machines.has_value(); });
+      question.parts, [](const goal::JudgedCriterion& part) { return part.goal->machines.has_value(); });
   if (has_names(question))
     description.value(
         {.key = "name",
          .heading = has_several(question) ? "worst goal" : "",
          .meaning = "name of the goal (of several goals the worst), to which these values apply",
          .optional = true},
-        [question](Verdict v) { return question.parts[v.goal].claim->name; });
+        [question](Verdict v) { return question.parts[v.goal].goal->name; });
   if (!question.settings.empty())
     description.value({.key = "condition",
                        .heading = "worst condition",
@@ -60,7 +60,7 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
   if (has_machines) {
     const auto of_machines = [question](goal::BoundedProportion goal::ClaimVerdict::*proportion) {
       return [question, proportion](Verdict v) -> std::optional<document::Bounded> {
-        if (!question.parts[v.goal].claim->machines) return std::nullopt;
+        if (!question.parts[v.goal].goal->machines) return std::nullopt;
         return goal::bounded(v.*proportion);
       };
     };
@@ -89,12 +89,12 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
                  "trials without a miss that show of one machine that it meets the goal; left out where the goal is not on machines",
              .optional = true},
             [question](Verdict v) -> std::optional<std::int64_t> {
-              const study::Goal& claim = *question.parts[v.goal].claim;
+              const study::Goal& claim = *question.parts[v.goal].goal;
               if (!claim.machines) return std::nullopt;
               return statistics::trials_for_claim(claim.moves, claim.confidence, 0);
             });
   }
-  if (std::ranges::any_of(question.parts, [](const auto& part) { return part.claim->beside_load; }))
+  if (std::ranges::any_of(question.parts, [](const auto& part) { return part.goal->beside_load; }))
     description.object({.key = "other_mass",
                         .meaning = "the same values of the load, which the goal of the motor does not limit",
                         .shown = Visibility::in_data,
@@ -108,9 +108,9 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
 
 document::Description<goal::Verdict> goals_description(const goal::Question& question, bool on_machines) {
   document::Description<goal::Verdict> goals;
-  for (const goal::JudgedPart& part : question.parts) {
+  for (const goal::JudgedCriterion& part : question.parts) {
     const std::size_t number = part.number;
-    goals.object({.key = part.claim->name, .meaning = goal::goal_sentence(*part.claim)},
+    goals.object({.key = part.goal->name, .meaning = goal::goal_sentence(*part.goal)},
                  verdict_description(only(question, number), on_machines), [number](const goal::Verdict& v) {
                    goal::ClaimVerdict worst = worst_of_goal(v, number);
                    worst.goal = 0;  // of this goal alone
@@ -121,7 +121,7 @@ document::Description<goal::Verdict> goals_description(const goal::Question& que
 }
 
 void add_goal(PointDescription& point, const summary::StudySummary& summary) {
-  if (!summary.question.claim()) return;
+  if (!summary.question.goal()) return;
   const goal::Question& question = summary.question;
   point.object(
       {.key = "goal", .meaning = "whether the point meets the goal, with bounds of this point alone"},
@@ -147,7 +147,7 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
 }
 
 bool has_several_claims(const summary::StudySummary& summary) {
-  return summary.question.claim() && !summary.features.open_loop &&
+  return summary.question.goal() && !summary.features.open_loop &&
          (has_several(summary.question) || !summary.question.settings.empty());
 }
 
@@ -170,7 +170,7 @@ void add_cells(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.question.settings.empty())  // with a goal the table of claims has them for people
     point.table({.key = "conditions",
                  .meaning = "the point under each condition",
-                 .shown = question.claim() ? Visibility::in_json : Visibility::not_in_csv,
+                 .shown = question.goal() ? Visibility::in_json : Visibility::not_in_csv,
                  .own_table = "by condition",
                  .note = "bounds of one side each with " + confidence},
                 summary::cell_description(question, summary::CellsBy::setting),
@@ -191,7 +191,7 @@ void add_claims(SummaryDescription& answer, const summary::StudySummary& summary
                [](const SummaryResults& s) { return summary::claims_of_point(s.summary, s.chosen.point); });
   answer.sentence([](const SummaryResults& s) {
     return fmt::format("bounds of one side each with {} confidence",
-                       text::percent(s.summary.question.claim()->confidence));
+                       text::percent(s.summary.question.goal()->confidence));
   });
 }
 

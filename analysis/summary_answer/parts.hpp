@@ -132,7 +132,7 @@ void add_question_columns(PointDescription& point, const summary::StudySummary& 
 /// Title of the table of zero counts; empty if the study is judged by zero counts and needs no separate
 /// table.
 inline const char* zero_count_table(const summary::StudySummary& summary) {
-  return summary.question.claim() ? "zero counts" : "";
+  return summary.question.goal() ? "zero counts" : "";
 }
 
 /// A function that returns the short label of a design point.

@@ -336,7 +336,7 @@ void add_success(PointDescription& point, const StudySummary& summary) {
 /// Percentage of machines without a failed trial, as text; if the study has a goal, of machines whose moves
 /// all meet the worst claim (goal and setting).
 std::string faultless_machines(Point p, const goal::Question& question) {
-  if (question.claim() && p.verdict)
+  if (question.goal() && p.verdict)
     return text::percentage(p.verdict->machines_without_miss, p.statistics().machines.n);
   const goal::MachinesWithoutFailure machines = goal::machines_without_failure(question, p.statistics());
   return text::percentage(machines.machines, machines.of);
@@ -345,9 +345,14 @@ std::string faultless_machines(Point p, const goal::Question& question) {
 void add_machines(PointDescription& point, const std::string& table, const StudySummary& summary,
                   const goal::Question& question) {
   if (!has_several_trials_of_machines(summary)) return;
-  const goal::QuestionWords& words = goal::words_of(question);
-  point.value({.heading = std::string(words.machine_head),
-               .meaning = fmt::format("{}: {}", words.machine_head, words.machine_meaning),
+  const std::string heading = question.goal() ? "machines w/o miss" : "machines w/o failure";
+  const std::string meaning =
+      question.goal()
+          ? "proportion of machines all of whose moves meet the goal (the worst of several, under the worst "
+            "condition)"
+          : fmt::format("proportion of machines all of whose trials ended at zero error{}", question.of_mass);
+  point.value({.heading = heading,
+               .meaning = fmt::format("{}: {}", heading, meaning),
                .numeric = true,
                .own_table = table},
               [question](Point p) { return faultless_machines(p, question); });
@@ -445,7 +450,7 @@ void add_measure(PointDescription& point, const std::string& table, const StudyS
 /// Whether the goal's settling times are simply those of a measure over all moves, so that the measure's
 /// statistics serve for the goal.
 bool asks_all_moves_alike(const goal::Question& question) {
-  return !has_several(question) && question.settings.empty() && question.counted().on.empty();
+  return !has_several(question) && question.settings.empty() && question.criterion().on.empty();
 }
 
 }  // namespace
@@ -458,7 +463,7 @@ std::string settling_text(Statistics point, double time) {
 
 void add_question_columns(PointDescription& point, const StudySummary& summary) {
   const std::string zero_counts = zero_count_table(summary);
-  if (summary.question.claim()) {
+  if (summary.question.goal()) {
     add_trials(point, summary);
     if (asks_all_moves_alike(summary.question)) {
       for (const layout::Measure* measure : shown_measures(summary)) {
@@ -476,7 +481,7 @@ void add_question_columns(PointDescription& point, const StudySummary& summary) 
     add_machines(point, "", summary, summary.question);
   }
   add_success(point, summary);
-  if (!summary.question.claim()) add_trials(point, summary);
+  if (!summary.question.goal()) add_trials(point, summary);
   for (const layout::Measure* measure : shown_measures(summary))
     add_measure(point, zero_counts, summary, *measure);
   add_outcomes(point, summary);

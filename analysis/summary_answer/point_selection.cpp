@@ -15,7 +15,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/document/answer.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary_answer/parts.hpp"
@@ -125,8 +125,8 @@ std::vector<double> ranks_of(const std::vector<std::string>& texts) {
                             condition));
 }
 
-text::Relation parts_of_condition(std::string_view condition) {
-  const std::optional<text::Relation> parts = text::parse_relation(condition);
+text::Comparison parts_of_condition(std::string_view condition) {
+  const std::optional<text::Comparison> parts = text::parse_comparison(condition);
   if (!parts) refuse(condition);
   return *parts;
 }
@@ -153,10 +153,10 @@ std::string names_among(const std::vector<std::string>& texts) {
 
 /// [point] Whether the condition on a text (= or !=) holds.
 /// @throws Failure (bad_input) if no point has the text, or for another relation
-std::vector<bool> texts_hold(const std::vector<std::string>& texts, const text::Relation& condition) {
+std::vector<bool> texts_hold(const std::vector<std::string>& texts, const text::Comparison& condition) {
   const std::string_view wanted = unquoted(condition.limit);
-  const bool equal = condition.sign == text::Sign::equal;
-  const bool of_texts = equal || condition.sign == text::Sign::unequal;
+  const bool equal = condition.relation == text::Relation::equal;
+  const bool of_texts = equal || condition.relation == text::Relation::unequal;
   if (!of_texts || std::ranges::find(texts, wanted) == texts.end()) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("'{} {} {}': {}; expected '{} = NAME' or '{} != NAME' with one of {}",
@@ -174,16 +174,16 @@ std::vector<bool> texts_hold(const std::vector<std::string>& texts, const text::
 /// [point] Whether the condition `text`, such as "kp > 0", holds.
 /// @param known values that the file stores
 std::vector<bool> holds_at(const StudySummary& summary, const std::string& text, const KnownValues& known) {
-  const text::Relation condition = parts_of_condition(text);
+  const text::Comparison condition = parts_of_condition(text);
   if (const std::vector<std::string>* const texts = texts_of(summary, condition.name))
     return texts_hold(*texts, condition);
   const auto limit = text::parse_number<double>(condition.limit);
   if (!limit) refuse(text);
   const std::vector<double> values =
-      text::values_as_written(condition.sign, values_of(summary, condition.name, known), condition.limit);
+      text::values_as_written(condition.relation, values_of(summary, condition.name, known), condition.limit);
   std::vector<bool> holds;
   holds.reserve(values.size());
-  for (const double value : values) holds.push_back(text::holds(condition.sign, value, *limit));
+  for (const double value : values) holds.push_back(text::holds(condition.relation, value, *limit));
   return holds;
 }
 
@@ -298,7 +298,7 @@ std::shared_ptr<const layout::MeasureTable> measures_of_merit(const reading::All
 /// Counts, for every design point of the summary, the moves that meet the goal, from the stored settling
 /// times.
 void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study) {
-  const measures::CountedGoal counted = summary.question.counted();
+  const double allowed = summary.question.criterion().within.time;
   const auto moves = static_cast<std::size_t>(file.moves());
   const std::string name = goal::settling_measure(summary.question);
   const std::int64_t block = layout::chunk_rows(file.moves());
@@ -307,9 +307,8 @@ void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const
     const std::vector<double> times = file.measure(name, {first, count});
     for (std::int64_t i = 0; i < count; ++i) {
       const auto begin = times.begin() + i * file.moves();
-      const std::int64_t met = std::count_if(begin, begin + file.moves(), [&](double time) {
-        return measures::is_in_time(time, counted.within.time);
-      });
+      const std::int64_t met = std::count_if(
+          begin, begin + file.moves(), [&](double time) { return measures::is_in_time(time, allowed); });
       summary.points[static_cast<std::size_t>((first + i) / study.trials)].goals.front().add(
           (first + i) % study.trials, static_cast<std::int64_t>(moves), met);
     }
@@ -318,15 +317,16 @@ void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const
 
 /// Whether the goal cannot be judged from the settling times of all moves in its band alone: it has selected
 /// moves, further limits or a tolerance, or its time counts from the end of the motion profile.
-bool needs_outcomes(const measures::CountedGoal& goal) {
-  return !goal.on.empty() || !goal.limits.empty() || goal.tolerance || goal.within.after_profile;
+bool needs_outcomes(const measures::MoveCriterion& goal) {
+  return !goal.on.empty() || !goal.limits.empty() || goal.settling == measures::Settling::in_tolerance ||
+         goal.within.after_profile;
 }
 
 /// Reads the statistics of all design points by which points are compared into the summary. Returns false if
 /// the file does not store them.
 bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study,
                     const layout::MeasureTable& table) {
-  if (has_several(summary.question) || needs_outcomes(summary.question.counted())) return false;
+  if (has_several(summary.question) || needs_outcomes(summary.question.criterion())) return false;
   const std::optional<std::vector<double>> successes = stored_statistic(file, "zero_count");
   const std::optional<std::vector<double>> times =
       stored_statistic(file, goal::settling_statistic(summary.question));
@@ -336,14 +336,14 @@ bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, c
   outline.measures.assign(table.size(), {});
   outline.measures.shrink_to_fit();
   outline.trials = outline.judged = study.trials;
-  if (summary.question.claim()) outline.goals.emplace_back(measures::Shape{.machines = study.machines});
+  if (summary.question.goal()) outline.goals.emplace_back(measures::Shape{.machines = study.machines});
   summary.points.assign(summary.labels.size(), outline);
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     measures::PointSummary& point = summary.points[i];
     point.outcomes.zero_count = static_cast<std::int64_t>((*successes)[i]);
     (point.measures.back().*goal::settling_quantile(summary.question)).value = (*times)[i];
   }
-  if (summary.question.claim()) count_goal(summary, file, study);
+  if (summary.question.goal()) count_goal(summary, file, study);
   if (study.machines == 0) return true;
   const std::optional<reading::StoredGroups> machines = file.groups("machine");
   if (!machines || machines->success.empty()) return false;

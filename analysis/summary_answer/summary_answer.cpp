@@ -47,7 +47,7 @@ std::string size_line(const StudySummary& summary) {
 
 std::string headline(Summary s) {
   if (s.summary.features.open_loop) return size_line(s.summary);
-  if (s.summary.question.claim())
+  if (s.summary.question.goal())
     return summary::judgement_headline(s.summary, summary::judge_point(s.summary, s.chosen));
   return summary::claim_of_chosen_point(s.summary, s.chosen);
 }
@@ -55,7 +55,7 @@ std::string headline(Summary s) {
 /// Text with the reasons for the headline; empty for an open-loop study.
 std::string details(Summary s) {
   if (s.summary.features.open_loop) return {};
-  if (s.summary.question.claim())
+  if (s.summary.question.goal())
     return fmt::format("goal: {}\n{}", goal::claim_sentence(s.summary.question),
                        summary::judgement_details(s.summary, summary::judge_point(s.summary, s.chosen)));
   const bool allows = s.chosen.chosen_from > 1 && !s.summary.features.dependent_trials;
@@ -192,7 +192,7 @@ document::Description<ConfirmationResults> confirmation_description(const StudyS
              })
       .value(document::in_data("one_trial_per_machine", "whether every new trial has a machine of its own"),
              &ConfirmationResults::has_one_trial_per_machine);
-  if (summary.question.claim())
+  if (summary.question.goal())
     description.object({.key = "goal", .meaning = "whether the new trials meet the goal"},
                        verdict_description(summary.question, summary.features.machines),
                        &ConfirmationResults::verdict);
@@ -233,7 +233,7 @@ StudySummary full_study() {
   full.features.coarse_errors = full.features.encoder_errors = full.features.final_error =
       full.features.stopping = true;
   full.features.own_controller = full.features.machines = true;
-  full.question.parts.front().claim = study::Goal{.name = "goal", .machines = 0.99, .beside_load = true};
+  full.question.parts.front().goal = study::Goal{.name = "goal", .machines = 0.99, .beside_load = true};
   full.question.parts.push_back(full.question.parts.front());
   full.features.position_error = true;
   full.features.tolerances = {{1e-8}, 1};
@@ -279,7 +279,7 @@ std::string design_line(const StudySummary& summary) {
   if (summary.question.worlds > 0) {
     line += fmt::format(", {} worlds: rates over all trials are averages over the worlds{}",
                         summary.question.worlds,
-                        summary.question.claim() ? "; those of the goal hold for the worst world" : "");
+                        summary.question.goal() ? "; those of the goal hold for the worst world" : "");
   }
   const study::Settings& settings = summary.question.settings;
   const std::size_t ages = settings.ages.at.size();
@@ -368,7 +368,7 @@ document::AnswerType summary_type() {
   without_machines.features.machines = false;
   without_machines.features.load_error = without_machines.features.motor_error = false;
   without_machines.repeatability->sources = &iso230::deviation_sources({});
-  without_machines.question.parts.front().claim->machines.reset();
+  without_machines.question.parts.front().goal->machines.reset();
   document::AnswerType type = summary_description(full_study()).complete_type();
   for (const StudySummary* other : {&without_machines, &plain, &levels})
     type.items = united(std::move(type.items), summary_description(*other).items.items());
@@ -391,7 +391,7 @@ std::vector<LevelAtPoint> SummaryResults::levels() const {
 DescribedPoint read_point(const summary::StudySummary& summary, std::int64_t point) {
   DescribedPoint reading{summary, point};
   const measures::PointSummary& statistics = reading.statistics();
-  if (summary.question.claim() && statistics.trials > 0)
+  if (summary.question.goal() && statistics.trials > 0)
     reading.verdict = goal::verdict_on(summary.question, statistics);
   if (summary.question.worlds > 0) reading.worlds = summary::worlds_of_point(summary, point);
   if (const auto counts = summary.observed_counts.find(reading.label());

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/goal/question_text.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
@@ -94,7 +95,7 @@ std::string assurance_statement(Point p) {
   const measures::PointSummary& point = p.statistics();
   const std::string settling = statistics::settling_sentence(point.settles_within);
   return (p.summary.question.worlds > 0 ? "on average over the worlds: " : "") +
-         statistics::claim_sentence(point.claim, goal::success_words(p.summary.question)) +
+         statistics::claim_sentence(point.claim, goal::success_predicate(p.summary.question)) +
          (settling.empty() ? "" : "; " + settling);
 }
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/text/relation.hpp"
+
 namespace zerocount::text {
 
 /// Fits sentences to the width of a terminal: lines are wrapped between words, and continue two columns
@@ -72,25 +74,6 @@ std::string range_text(double low, double high, std::string_view unit);
 /// Text of numbers with one unit: "20, 21, 20, 0 µm".
 std::string list_text(std::span<const double> values, std::string_view unit);
 
-// Texts such as "arrival_time > 0.5" and "success_rate ≥ 0.995": what options and margins ask of a value.
-
-/// Relation of a value to its limit.
-enum class Sign : std::uint8_t { below, at_most, above, at_least, equal, unequal };
-
-/// The parts of a text such as "arrival_time > 0.5", without the blanks around them.
-struct Relation {
-  std::string_view name;
-  Sign sign;
-  std::string_view written;  ///< The sign as written in the text: "≥" or ">=".
-  std::string_view limit;
-};
-
-/// Splits the text at the first relation sign in it, one of < <= ≤ > >= ≥ = == != ≠; nothing without one.
-std::optional<Relation> parse_relation(std::string_view text);
-
-/// Whether the value has the relation `sign` to the limit; false for NaN.
-bool holds(Sign sign, double value, double limit);
-
 /// The values, with each value that answers show as the same number as the limit replaced by the limit, so
 /// that a number copied from an answer means the value that the answer shows rounded. Nothing is replaced if
 /// a value is equal to the limit.
@@ -100,7 +83,7 @@ bool holds(Sign sign, double value, double limit);
 ///                11767.76 is at most 11767.7 and at most 1.176e4, but 12 300 is not at most 1.2e4
 ///
 /// @param limit a number as text
-std::vector<double> values_as_written(Sign sign, std::vector<double> values, std::string_view limit);
+std::vector<double> values_as_written(Relation relation, std::vector<double> values, std::string_view limit);
 
 /// Text of k successes in n trials as a percentage with at most one decimal; "–" if n is 0. Values that would
 /// round to 0 % or 100 % are written "< 0.1 %" or "> 99.9 %".

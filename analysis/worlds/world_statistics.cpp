@@ -29,9 +29,9 @@ void sort_out(RatesOfWorlds& rates) {
 RatesOfWorlds judged_rates(const goal::Question& question, const goal::Verdict& verdict) {
   RatesOfWorlds rates;
   for (const goal::WorldVerdict& world : verdict.worlds) rates.worlds.push_back(judged_rate(question, world));
-  rates.lowest = question.claim()->machines ? verdict.machines : verdict.moves;
+  rates.lowest = judged_rate(question, verdict);
   sort_out(rates);
-  rates.worst = goal::worst_worlds_first(*question.claim(), verdict).front();
+  rates.worst = goal::worst_worlds_first(*question.goal(), verdict).front();
   return rates;
 }
 
@@ -50,8 +50,8 @@ std::vector<goal::Status> worst_statuses(const goal::Verdict& verdict) {
 std::vector<bool> short_of_claims(const goal::Question& question, const goal::Verdict& verdict) {
   std::vector<bool> bad(verdict.worlds.size(), false);
   for (const goal::ClaimVerdict& claim : verdict.claims) {
-    const study::Goal& goal = *question.parts[claim.goal].claim;
-    const double wanted = goal.machines.value_or(goal.moves);
+    const study::Goal& goal = *question.parts[claim.goal].goal;
+    const double wanted = study::demanded_proportion(goal);
     for (std::size_t world = 0; world < bad.size(); ++world) {
       const goal::WorldVerdict& one = claim.worlds[world];
       if ((goal.machines ? one.machines.value : one.moves.value) < wanted) bad[world] = true;
@@ -96,7 +96,7 @@ PointWorlds point_worlds(const measures::PointSummary& point, const goal::Questi
   PointWorlds result;
   const std::vector<measures::MoveCounts> succeeded = point.trials_of_groups.value().succeeded.by_world();
   result.success = rates_of_worlds(succeeded, confidence);
-  if (all.claim()) result.goal = verdict_on(all, point, points);
+  if (all.goal()) result.goal = verdict_on(all, point, points);
   const goal::Question question = result.goal ? only(all, result.goal->goal) : all;
   result.asked = result.goal ? judged_rates(question, *result.goal) : result.success;
   if (result.goal) {

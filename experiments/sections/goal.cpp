@@ -132,7 +132,7 @@ void take_limits(const yaml::Field& of_goal, keys::Reading& reading, study::Goal
         reading.problems.add(item, "the true motion is not measured", "verdict.motion: true");
       if (named->of_position) reading.plan.common.verdict.position_error = true;
     }
-    goal.limits.push_back({std::move(measure), shapes::number_of(item)});
+    goal.limits.push_back({std::move(measure), {text::Relation::at_most, shapes::number_of(item)}});
   }
 }
 

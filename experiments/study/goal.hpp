@@ -7,16 +7,17 @@
 #include <vector>
 
 #include "core/motion/parameters.hpp"
+#include "core/text/relation.hpp"
 #include "experiments/parameters/study_units.hpp"
 
 namespace zerocount::study {
 
 /// A limit that a goal sets for one measure. A move can meet the goal only if the magnitude of this measure
-/// is at most `largest`.
+/// keeps the limit.
 struct GoalLimit {
   /// Name of the measure in files: "overshoot", "band_exits[2]", "tolerance_settling_time[1e-08]".
   std::string measure;
-  double largest{0.0};  ///< largest allowed magnitude of the measure, in its unit
+  text::Limit limit{};  ///< limit of the magnitude, in the measure's unit
 };
 
 /// The time that a goal allows a move, counted from the start of the move (key `within`) or from the end of
@@ -65,6 +66,11 @@ struct Goal {
   bool of_either{false};
   bool beside_load{false};  ///< the goal judges the motor; in addition the same goal is counted for the load
 };
+
+/// Proportion that the goal demands: of machines if the goal is about machines, of moves otherwise.
+constexpr double demanded_proportion(const Goal& goal) {
+  return goal.machines.value_or(goal.moves);
+}
 
 constexpr std::string_view mass_text(motion::EncoderPlace mass) {
   return mass == motion::EncoderPlace::load ? "load" : "motor";

@@ -124,7 +124,7 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
     outcomes.insert(outcomes.end(), moves.begin(), moves.end());
   comparison::AlsoRead also;
   also.machines = study.machines;
-  const std::vector<measures::CountedGoal> counted = measures::counted_goals(study);
+  const std::vector<measures::MoveCriterion> counted = measures::criteria_of_goals(study);
   for (std::size_t i = 0; i < study.goals.size(); ++i) {
     also.judged.push_back({study.goals[i], counted[i], study.machines});
     also.judged.back().counts = measures::CellCounts({study.machines, study.worlds, 0});

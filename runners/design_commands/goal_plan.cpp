@@ -157,7 +157,7 @@ document::AnswerDescription<Pilot> pilot_answer() {
 /// Goals of the study, each with the number of a trial's moves that it judges.
 std::vector<goal::AskedGoal> asked_goals(const study::Study& study) {
   std::vector<goal::AskedGoal> asked;
-  const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);
+  const std::vector<measures::MoveCriterion> counted = measures::move_criteria_of(study);
   for (std::size_t i = 0; i < study.goals.size(); ++i)
     asked.push_back({study.goals[i], measures::asked_moves(counted[i], study.moves)});
   return asked;
@@ -175,7 +175,7 @@ document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
 document::Answer plan_of_pilot(const std::string& path) {
   const study::Study study = commands::described_study(path);
   const auto [summary, chosen, measures] = summary::summarise_chosen(path);
-  if (!summary.question.claim()) goal::require_claim({}, path, other_plans);
+  if (!summary.question.goal()) goal::require_claim({}, path, other_plans);
   Pilot pilot{summary, summary::judge_point(summary, chosen), {}};
   if (pilot.judged.needs && study.machines > 0 && is_on_machines(study)) {
     pilot.studies = with_times(

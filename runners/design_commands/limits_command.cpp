@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/goal/question_text.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/proportion.hpp"
@@ -341,7 +342,7 @@ std::string rated_words(const study::Study& study, std::size_t claim) {
   const tuning::ClaimPlace place = tuning::place_of_claim(study, claim);
   const goal::Question question = only(goal::question_of(study), place.goal);
   return fmt::format("{} {}{}{}{}", goal::is_of_machines(question) ? "machines" : "moves",
-                     goal::words_of(question).meet,
+                     goal::meeting_predicate(question),
                      study.goals.empty() ? "" : goal::of_mass(study.goals[place.goal]),
                      claim_text(study, place), question.worlds > 0 ? " in the worst world" : "");
 }

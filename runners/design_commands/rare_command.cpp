@@ -81,7 +81,7 @@ measures::MoveEvent event_to_ask(const command_line::Arguments& arguments, const
   if (const std::optional<std::string> text = arguments.value("event"))
     return measures::parse_event(study, *text);
   goal::require_targets(study, arguments.operands()[0]);
-  return measures::missed_question(study);
+  return measures::missed_criteria(study);
 }
 
 rare::RareSettings settings_of(const command_line::Arguments& arguments) {
@@ -142,7 +142,7 @@ ExitCode rare(const command_line::Arguments& arguments) {
 document::Answer rare_of(const study::Study& study, const rare::Population& of,
                          const trials::Effort& effort) {
   const rare::Question question =
-      question_with_draws(study, of, measures::missed_question(study), study.name);
+      question_with_draws(study, of, measures::missed_criteria(study), study.name);
   rare::RareSettings settings;
   settings.max_trials = std::min(usual_rare_trials, effort.trials_left());
   // Some of the time remains for the description of the failures.

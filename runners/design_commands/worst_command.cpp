@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/question.hpp"
+#include "analysis/goal/question_text.hpp"
 #include "analysis/text/text.hpp"
 #include "core/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"
@@ -54,7 +55,7 @@ std::string headline(const Search& search) {
          (worst.is_previous ? fmt::format("none is worse than {} of the study",
                                           machine_name(search.found.of_study, search.study.machines > 0))
                             : fmt::format("{:.4g} % of {} moves {}{}", 100.0 * worst.met, worst.moves,
-                                          goal::words_of(goal::question_of(search.study)).meet,
+                                          goal::meeting_predicate(goal::question_of(search.study)),
                                           study::setting_phrase(search.study.settings, worst.setting)));
 }
 
@@ -246,7 +247,7 @@ std::string machine_name(const WorstMachine& worst, bool on_machines) {
 
 std::string worst_machine_text(const WorstMachine& worst, const study::Study& study) {
   return fmt::format("{}, {:.4g} % of its moves {}{}{}{}", machine_name(worst, study.machines > 0),
-                     100.0 * worst.met, goal::words_of(goal::question_of(study)).meet,
+                     100.0 * worst.met, goal::meeting_predicate(goal::question_of(study)),
                      claim_text(study, worst.claim), worst.inputs.empty() ? "" : "; ",
                      values_text(worst.inputs));
 }

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/goal/question.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/text/report_json.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/text.hpp"
@@ -138,7 +138,7 @@ Json goals_json(const study::Study& study) {
   for (const study::Goal& goal : study.goals) {
     Json limits = Json::object();
     for (const study::GoalLimit& limit : goal.limits)
-      limits[study::name_in(goal, limit.measure)] = limit.largest;
+      limits[study::name_in(goal, limit.measure)] = limit.limit.value;
     goals.push_back({{"name", goal.name},
                      {"band", goal.tolerance ? Json() : Json(goal.band)},
                      {"tolerance", json_of(goal.tolerance)},

@@ -128,7 +128,7 @@ class Estimator {
             const std::function<bool(const EstimatorState&)>& go_on)
       : state_(state), settings_(settings), simulate_(simulate), go_on_(go_on) {}
 
-  Estimate run() {
+  ProbabilityEstimate run() {
     if (!state_.learned && !learn()) return answer_of(state_, settings_);
     estimate_by_drawing();
     const EstimateStatus status = answer_of(state_, settings_).status;
@@ -522,13 +522,13 @@ bool splitting_disagrees(const EstimatorState& state, double high) {
 
 }  // namespace
 
-Estimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
+ProbabilityEstimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
                   const std::function<bool(const EstimatorState&)>& go_on) {
   return Estimator(state, settings, simulate, go_on).run();
 }
 
-Estimate answer_of(const EstimatorState& state, const EstimatorSettings& settings) {
-  Estimate answer;
+ProbabilityEstimate answer_of(const EstimatorState& state, const EstimatorSettings& settings) {
+  ProbabilityEstimate answer;
   answer.plain_high =
       statistics::clopper_pearson(state.plain_failures, state.plain_trials, settings.confidence).high;
   answer.bounds = {0.0, answer.plain_high};

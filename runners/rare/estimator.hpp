@@ -103,7 +103,7 @@ enum class EstimateStatus {
   budget     ///< The budget of trials or time ended before the bounds were as narrow as asked.
 };
 
-struct Estimate {
+struct ProbabilityEstimate {
   EstimateStatus status{EstimateStatus::budget};
   bool narrow{false};  ///< Whether the bounds from the drawn trials are as narrow as asked.
   /// Estimated probability that a move fails (expected proportion of failing moves), 0 to 1.
@@ -142,10 +142,10 @@ struct Estimate {
 /// @param state empty, or the state of an interrupted estimate, which is then resumed
 /// @param go_on asked with the state between parts of some hundred or thousand trials; false ends the
 /// estimate
-Estimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
+ProbabilityEstimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
                   const std::function<bool(const EstimatorState&)>& go_on);
 
 /// Estimate of the probability from the trials that a state already holds. No trial is run.
-Estimate answer_of(const EstimatorState& state, const EstimatorSettings& settings);
+ProbabilityEstimate answer_of(const EstimatorState& state, const EstimatorSettings& settings);
 
 }  // namespace zerocount::rare

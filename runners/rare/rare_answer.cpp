@@ -73,12 +73,12 @@ std::optional<std::string> premise_of(const RareAnswer& answer) {
 
 std::string headline(const RareAnswer& answer) {
   const Question& question = answer.question;
-  const Estimate& estimate = answer.estimate;
+  const ProbabilityEstimate& estimate = answer.estimate;
   const std::string number = has_probability(answer)
                                  ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", estimate.probability,
                                                estimate.bounds.low, estimate.bounds.high)
                                  : fmt::format("at most {:.3g}", estimate.bounds.high);
-  const std::string event = question.event.text.empty()
+  const std::string event = !question.event.is_about_measure()
                                 ? goal::missing_text(goal::question_of(question.study))
                                 : "has " + question.event.text;
   return fmt::format("the probability is {}, with {} confidence, that a move {}{}", number,
@@ -297,8 +297,8 @@ void add_question(Description<RareAnswer>& items) {
       .value(in_data("event", "the event; goal, success: it is missed"),
              [](const RareAnswer& a) {
                const Question& question = a.question;
-               return question.event.text.empty()
-                          ? std::string(goal::words_of(goal::question_of(question.study)).subject)
+               return !question.event.is_about_measure()
+                          ? std::string(goal::question_of(question.study).goal() ? "goal" : "success")
                           : question.event.text;
              })
       .value(in_data("point", "number of the design point"),

@@ -190,7 +190,7 @@ Question recorded_question(const RareRecord& record, const std::filesystem::path
   require("world", record.of.world, study.worlds);
   require("condition", record.of.setting, study.settings.listed());
   measures::MoveEvent event =
-      record.event.empty() ? measures::missed_question(study) : measures::parse_event(study, record.event);
+      record.event.empty() ? measures::missed_criteria(study) : measures::parse_event(study, record.event);
   return question_of(std::move(study), record.of, std::move(event));
 }
 

@@ -54,7 +54,7 @@ std::optional<RareRecord> earlier_record(const Question& question, const RareSet
 }
 
 /// Text of the status line of a running estimate.
-std::string progress_text(const Estimate& estimate, const EstimatorState& state) {
+std::string progress_text(const ProbabilityEstimate& estimate, const EstimatorState& state) {
   if (!state.learned) return fmt::format("learns where failures are: {} trials", state.trials);
   return fmt::format("{} trials: {:.2g} [{:.2g}, {:.2g}]", state.trials, estimate.probability,
                      estimate.bounds.low, estimate.bounds.high);

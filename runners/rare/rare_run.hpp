@@ -10,7 +10,7 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/document/figure.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_event.hpp"
 #include "experiments/randomness/random_coordinates.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
@@ -125,7 +125,7 @@ struct RareAnswer {
   const Question& question;
   RareSettings settings;
   EstimatorState state{};
-  Estimate estimate{};
+  ProbabilityEstimate estimate{};
   std::vector<FailureInput> inputs{};
   std::optional<CarryingMachines> machines{};
   double seconds{0.0};  ///< Time that this run and the earlier runs which it resumes took together, s.

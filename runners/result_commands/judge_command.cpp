@@ -44,9 +44,9 @@ struct Judgement {
   std::optional<summary::SaturatedMoves> saturated;
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
-  const goal::JudgedPart& worst_goal() const { return summary.question.parts[judged.verdict.goal]; }
+  const goal::JudgedCriterion& worst_goal() const { return summary.question.parts[judged.verdict.goal]; }
   std::optional<std::string> name() const {
-    const std::string& of_goal = worst_goal().claim->name;
+    const std::string& of_goal = worst_goal().goal->name;
     return of_goal.empty() ? std::nullopt : std::optional(of_goal);
   }
   std::optional<std::string> setting() const {
@@ -63,7 +63,7 @@ struct Judgement {
     return claims.size() > 1 ? claims : std::vector<summary::CellOfPoint>();
   }
   std::optional<double> of_machines(double bound) const {
-    return worst_goal().claim->machines ? std::optional(bound) : std::nullopt;
+    return worst_goal().goal->machines ? std::optional(bound) : std::nullopt;
   }
   std::optional<summary::WorldsAtPoint> worlds_reading() const {
     if (!worlds) return {};
@@ -75,8 +75,8 @@ struct Judgement {
 /// An example of a question with a claim, from which the type (schema) of the answer is made.
 goal::Question any_claim() {
   goal::Question question;
-  question.parts.front().claim.emplace();
-  question.parts.front().claim->beside_load = true;
+  question.parts.front().goal.emplace();
+  question.parts.front().goal->beside_load = true;
   return question;
 }
 

@@ -280,7 +280,7 @@ Outcome outcome_of(const std::string& path, const summary::StudySummary& summary
                   .precision = precision,
                   .worlds = *summary::worlds_of_point(summary, chosen.point,
                                                       static_cast<std::size_t>(chosen.chosen_from))};
-  if (summary.question.claim()) outcome.judged = summary::judge_point(summary, chosen);
+  if (summary.question.goal()) outcome.judged = summary::judge_point(summary, chosen);
   if (outcome.worlds_differ())
     outcome.learned =
         worlds::what_to_learn(outcome.inputs(), outcome.worlds.bad, outcome.precision, summary.seed);

@@ -60,7 +60,7 @@ void describe(IndexedFile& row) {
   row.has_report = header.retention == study::Retention::trials;
   const auto [summary, chosen, measures] = summary::summarise_chosen(row.file);
   row.study = summary.name;
-  if (!summary.question.claim()) {
+  if (!summary.question.goal()) {
     row.verdict = summary::claim_of_chosen_point(summary, chosen);
     return;
   }

@@ -60,7 +60,7 @@ Answers learn_part(const ReportedPoint& asked, const trials::Effort&) {
 std::optional<std::int64_t> worst_world(const ReportedPoint& asked) {
   const study::Study& study = asked.study();
   if (study.worlds == 0) return std::nullopt;
-  if (!asked.summary.question.claim())
+  if (!asked.summary.question.goal())
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: without a goal it is not known which of its worlds is the worst; "
                               "'zerocount rare' is asked of one with --world",

@@ -31,7 +31,7 @@ constexpr const char* examples =
 
 std::string full_help() {
   std::string text = sensitivity_help;
-  const goal::Question with_goal{.parts = {{.claim = study::Goal{}}}};
+  const goal::Question with_goal{.parts = {{.goal = study::Goal{}}}};
   for (const sensitivity::SensitivityOutput& output :
        sensitivity::sensitivity_outputs(layout::measure_table(), with_goal)) {
     text += fmt::format("  {:<15} {}{}\n", output.name,

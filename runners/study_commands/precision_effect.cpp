@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/question.hpp"
+#include "analysis/goal/question_text.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/controller_code/program.hpp"
@@ -87,7 +88,7 @@ std::vector<std::string> effect_of_single_precision(const study::Study& study, s
   return {fmt::format("What single precision changes in {} simulated trials (in double precision):", count),
           fmt::format("  {} trials {} ({}); {} are judged otherwise",
                       std::ranges::count_if(in_single, &End::meets),
-                      goal::words_of(goal::question_of(study)).meet,
+                      goal::meeting_predicate(goal::question_of(study)),
                       std::ranges::count_if(in_double, &End::meets), otherwise),
           fmt::format("  settled: median {} ({}), 95 % {} ({})", settled_text(in_single, 0.5),
                       settled_text(in_double, 0.5), settled_text(in_single, 0.95),

@@ -53,7 +53,7 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
 /// @param first number of the first trial of `outcomes`
 summary_answer::Confirmation counted_in(const study::Study& study, std::int64_t first,
                                         std::span<const trial::TrialOutcome> outcomes) {
-  const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
+  const std::vector<measures::MoveCriterion> goals = measures::criteria_of_goals(study);
   summary_answer::Confirmation counts;
   counts.goals.assign(goals.size(), measures::CellCounts(measures::shape_of(study)));
   for (const trial::TrialOutcome& outcome : outcomes) {

@@ -80,7 +80,7 @@ study::Study TunedAxis::on_machines(std::vector<std::string> overrides) const {
 }
 
 std::optional<std::size_t> TunedAxis::lost_claim(const study::Study& of, const Change* change) const {
-  const Estimate estimate = estimate_on(of, search.machines(), plan.machines, change, effort);
+  const RateEstimate estimate = estimate_on(of, search.machines(), plan.machines, change, effort);
   return reaches(aim_of(tuned), estimate) ? std::nullopt : std::optional(estimate.worst);
 }
 

@@ -135,7 +135,7 @@ std::optional<Proven> prove_values(const Space& space, StudySearch& search, cons
   ProofRun run;
   ProofProblem problem;
   const Aim aim = aim_of(study);
-  for (const Estimate& one : found.estimates) {
+  for (const RateEstimate& one : found.estimates) {
     problem.may_meet.push_back(may_meet(aim, one));
     problem.margins.push_back(one.margin);
   }

@@ -120,7 +120,7 @@ struct Proof {
   int attempts{1};
   /// Claims (goals in settings) with confidence bounds that allow for all attempts.
   std::vector<summary::CellOfPoint> claims{};
-  /// Estimate::criterion, the quantity that the tuning minimises; infinity for "never".
+  /// RateEstimate::criterion, the quantity that the tuning minimises; infinity for "never".
   double criterion{0.0};
   /// Value that the criterion's measure does not exceed in the proportion of moves that the goal asks for
   /// (study::Goal::moves), for the worst goal in its worst setting.

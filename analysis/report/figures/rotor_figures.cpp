@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/question_text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "experiments/parameters/handles.hpp"
@@ -96,12 +97,13 @@ FigureData profile_data(const reading::StoredProfile& profile) {
 /// Dataset of the proportion of trials that meet the question (goal or success) in equal sectors of the
 /// rotor.
 /// @param period length of the rotor's position range, rad or m
+/// @param rate name of the proportion
 FigureData sector_data(const std::vector<EndOnRotor>& ends, double period, std::size_t sectors,
-                       const goal::QuestionWords& words) {
+                       std::string_view rate) {
   FigureData data{"sectors",
                   {{"from", "from", "rad"},
                    {"to", "to", "rad"},
-                   {"rate", std::string(words.trial_rate), "1"},
+                   {"rate", std::string(rate), "1"},
                    {"low", "lower 95 % bound", "1"},
                    {"high", "upper 95 % bound", "1"},
                    {"successes", "trials that met it", "1"},
@@ -138,26 +140,32 @@ reading::StoredProfile rotor_of_machine(const reading::StoredProfile& profile, s
   return rotor;
 }
 
+/// Name of the proportion of trials that meet the question.
+std::string_view name_of_trial_rate(const goal::Question& question) {
+  return question.goal() ? "rate of trials in goal" : "success rate";
+}
+
 std::string caption_of(const ReportedStudy& reported, const std::string& parameter, const ShownTrials& shown,
                        bool failed) {
   const std::string& label = label_of(reported, shown.point);
   const std::string trials = shown.machine ? fmt::format("machine {} at point {}", *shown.machine, label)
                                            : fmt::format("point {}", label);
-  const goal::QuestionWords& words = words_of(question_of(reported));
+  const goal::Question& question = question_of(reported);
+  const bool has_goal = question.goal().has_value();
   std::string caption =
       shown.machine
           ? fmt::format("The line is {} along the $track of machine {}, the one with the lowest {}. ",
-                        parameter, *shown.machine, words.rate)
+                        parameter, *shown.machine, name_of_rate(question))
           : fmt::format("The line is {} along the $track, the same in all trials. ", parameter);
   caption += failed ? fmt::format("The marks are the {} of {}, at the $rotor_angle where they ended. ",
-                                  words.failing, trials)
-                    : fmt::format("No trial of {} {}. ", trials, words.failed);
+                                  has_goal ? "trials that miss the goal" : "failed trials", trials)
+                    : fmt::format("No trial of {} {}. ", trials, has_goal ? "missed the goal" : "failed");
   return caption +
          fmt::format(
              "Below: {} that ended in each sector of the $track, with 95 % Clopper-Pearson bounds. If "
              "it follows the line, the minimum of the profile limits it, as the paper states for k1 "
              "(practical issue 1).",
-             words.trial_rate);
+             name_of_trial_rate(question));
 }
 
 Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile& stored, std::size_t column) {
@@ -182,7 +190,6 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
                              layout::outcome_labels()[static_cast<std::size_t>(end.outcome)].word}));
   }
   const std::string parameter = profile.name.substr(0, profile.name.find('@'));
-  const goal::QuestionWords& words = words_of(question_of(reported));
   std::string caption = caption_of(reported, parameter, shown, !failures.empty());
   if (std::ssize(failures) > max_failures) {
     caption += fmt::format(" {} of {} failures are shown, evenly spaced.", max_failures, failures.size());
@@ -190,10 +197,12 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
   Figure figure = figure_of(
       "rotor", fmt::format("rotor-{}", profile.name),
       failures.empty() ? fmt::format("How does {} vary along the $track?", parameter)
-                       : fmt::format("Where along the $track are the {}, over {}?", words.failing, parameter),
+      : question_of(reported).goal()
+          ? fmt::format("Where along the $track are the trials that miss the goal, over {}?", parameter)
+          : fmt::format("Where along the $track are the failed trials, over {}?", parameter),
       caption,
       {std::move(trials), profile_data(profile),
-       sector_data(ends, period, trials_shown >= 480 ? 24 : 12, words)});
+       sector_data(ends, period, trials_shown >= 480 ? 24 : 12, name_of_trial_rate(question_of(reported)))});
   figure.parameters["period"] = {0.0, period};
   // The first dataset is the table behind the figure.
   if (failures.empty()) std::rotate(figure.data.begin(), figure.data.begin() + 2, figure.data.end());

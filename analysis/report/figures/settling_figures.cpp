@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/goal/question_text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -66,7 +67,7 @@ std::vector<SettledMoves> settled_by_world(const ReportedStudy& reported, std::i
 
 /// Function that gives the settling time of a move for a goal. The time counts from the same instant as the
 /// goal's time limit: the start of the move, or the end of its motion profile.
-SettlingTime time_in(const measures::CountedGoal& goal) {
+SettlingTime time_in(const measures::MoveCriterion& goal) {
   return [&goal](const trial::MoveOutcome& move) -> std::optional<double> {
     if (!measures::asks(goal, move)) return std::nullopt;
     const double time = measures::settling_time(goal, move);
@@ -216,23 +217,23 @@ struct SettledSubject {
   std::string name;       ///< Name of the goal, or of the band: "±1 count".
   std::string precision;  ///< Precision as text: "1 count", "10 nm".
   /// Selects the judged moves, and the band or tolerance in which they settle.
-  measures::CountedGoal counted;
+  measures::MoveCriterion criterion;
   /// Goal whose limits of time and proportion are drawn as lines; nothing for an error band without a goal.
-  std::optional<study::Goal> claim{};
+  std::optional<study::Goal> goal{};
 };
 
 std::vector<SettledSubject> settled_subjects(const ReportedStudy& reported) {
   const goal::Question& question = question_of(reported);
   std::vector<SettledSubject> subjects;
-  if (question.claim()) {
-    for (const goal::JudgedPart& part : question.parts)
-      subjects.push_back({part.claim->name, precision_text(reported, *part.claim), part.counted, part.claim});
+  if (question.goal()) {
+    for (const goal::JudgedCriterion& part : question.parts)
+      subjects.push_back({part.goal->name, precision_text(reported, *part.goal), part.criterion, part.goal});
     return subjects;
   }
   const trial::ErrorBands& bands = reported.study.features.bands;
   for (std::size_t slot = 0; slot < bands.count; ++slot) {
     const std::string precision = precision_text(reported, {.band = bands.values()[slot]});
-    subjects.push_back({"±" + precision, precision, {.slot = slot}});
+    subjects.push_back({"±" + precision, precision, {.settling = measures::Settling::in_band, .slot = slot}});
   }
   return subjects;
 }
@@ -245,11 +246,11 @@ bool add_settled(FigureData& data, const ReportedStudy& reported, const SettledS
   const std::int64_t chosen = reported.chosen.point;
   double end = 0.0;
   for (const ReportedPart& part : parts) {
-    settled.push_back(settled_by_world(part.study, chosen, 1, time_in(subject.counted)).front());
+    settled.push_back(settled_by_world(part.study, chosen, 1, time_in(subject.criterion)).front());
     end = std::max(end, end_of(settled.back()));
   }
   if (end == 0.0) return false;
-  if (subject.claim) end = std::max(end, subject.claim->within.time);
+  if (subject.goal) end = std::max(end, subject.goal->within.time);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::size_t first = data.rows.size();
     add_curve(data, has_settings(reported) ? parts[i].setting : subject.name, settled[i],
@@ -264,16 +265,16 @@ void add_goals(Figure& figure, const std::vector<SettledSubject>& subjects) {
   FigureData goals{"goals",
                    {{"within", "within", "s"}, {"moves", "proportion of moves", "1"}, {"subject", "", ""}}};
   for (const SettledSubject& one : subjects)
-    if (one.claim) goals.rows.push_back({one.claim->within.time, one.claim->moves, one.name});
+    if (one.goal) goals.rows.push_back({one.goal->within.time, one.goal->moves, one.name});
   if (!goals.rows.empty()) figure.data.push_back(std::move(goals));
 }
 
 /// A goal as text: "large: ±10 nm after 30 ms in 95 % of the moves".
 std::string goal_text(const SettledSubject& subject) {
-  const study::TimeLimit& within = subject.claim->within;
+  const study::TimeLimit& within = subject.goal->within;
   return fmt::format("{}{}±{} {} in {} of the moves", subject.name, subject.name.empty() ? "" : ": ",
                      subject.precision, goal::after_text(within, text::quantity_text(within.time, "s")),
-                     text::percent(subject.claim->moves));
+                     text::percent(subject.goal->moves));
 }
 
 /// Figure with a curve of settling times for each goal, or error band, and each setting (condition at an
@@ -289,18 +290,18 @@ std::optional<Figure> settled_figure(const ReportedStudy& reported) {
   std::vector<SettledSubject> subjects = settled_subjects(reported);
   std::erase_if(subjects, [&](const SettledSubject& one) { return !add_settled(data, reported, one); });
   if (subjects.empty()) return std::nullopt;
-  const bool with_claim = subjects.front().claim.has_value();
+  const bool with_goal = subjects.front().goal.has_value();
   const bool with_limits =
-      std::ranges::any_of(subjects, [](const SettledSubject& one) { return !one.counted.limits.empty(); });
+      std::ranges::any_of(subjects, [](const SettledSubject& one) { return !one.criterion.limits.empty(); });
   std::string caption = fmt::format(
       "Proportion of the moves of {} whose error stays within ±{} from a time on to the end of the move{}. ",
       label_of(reported, reported.chosen.point), subjects.size() == 1 ? subjects.front().precision : "b",
       has_settings(reported) ? ", under each condition" : "");
   caption += bands_sentence(reported);
-  if (with_claim) caption += "The dashed lines are the goal: the curve must pass above their crossing. ";
-  if (with_claim && subjects.size() == 1) caption += fmt::format("It asks {}. ", goal_text(subjects.front()));
-  if (!with_claim) caption += "Shortly before the end there is little time left to leave a band in. ";
-  if (std::ranges::any_of(subjects, [](const auto& one) { return one.counted.within.after_profile; }))
+  if (with_goal) caption += "The dashed lines are the goal: the curve must pass above their crossing. ";
+  if (with_goal && subjects.size() == 1) caption += fmt::format("It asks {}. ", goal_text(subjects.front()));
+  if (!with_goal) caption += "Shortly before the end there is little time left to leave a band in. ";
+  if (std::ranges::any_of(subjects, [](const auto& one) { return one.criterion.within.after_profile; }))
     caption += "Where a goal counts from the end of the profile, so do the times. ";
   if (with_limits) caption += "The limits of the goal are not in it. ";
   if (reported.study.worlds > 0) caption += "It is an average over the worlds. ";
@@ -309,13 +310,13 @@ std::optional<Figure> settled_figure(const ReportedStudy& reported) {
                 subjects.size() == 1
                     ? fmt::format("How soon are the moves within ±{} for good?", subjects.front().precision)
                     : fmt::format("How soon are the moves within {} for good?",
-                                  with_claim ? "what each goal asks" : "each band"),
+                                  with_goal ? "what each goal asks" : "each band"),
                 caption, {std::move(data)});
   add_goals(figure, subjects);
-  if (!has_settings(reported) && !with_claim) return figure;
+  if (!has_settings(reported) && !with_goal) return figure;
   figure.parameters["panels"] = "subject";
   for (const SettledSubject& one : subjects)
-    if (one.claim) figure.parameters["titles"][one.name] = goal_text(one);
+    if (one.goal) figure.parameters["titles"][one.name] = goal_text(one);
   return figure;
 }
 
@@ -326,7 +327,7 @@ std::vector<Figure> distribution_figures(const ReportedStudy& reported) {
   const auto add = [&](std::optional<Figure> figure) {
     if (figure) figures.push_back(std::move(*figure));
   };
-  if (!question_of(reported).claim()) add(arrival_figure(reported));
+  if (!question_of(reported).goal()) add(arrival_figure(reported));
   if (!reported.study.open_loop) add(settled_figure(reported));
   return figures;
 }
@@ -349,13 +350,15 @@ std::size_t leading_input(const worlds::PointWorlds& point) {
 /// nobody knows.
 std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds::PointWorlds& point) {
   const goal::Question& question = reported.summary.question;
-  if (!question.claim() && reported.study.features.bands.count == 0) return std::nullopt;
+  if (!question.goal() && reported.study.features.bands.count == 0) return std::nullopt;
   const std::vector<worlds::WorldInput>& inputs =
       summary::world_inputs_of(reported.summary, reported.chosen.point);
-  const measures::CountedGoal goal = question.claim() ? question.counted() : measures::CountedGoal{.slot = 0};
+  const measures::MoveCriterion goal = question.goal()
+                                           ? question.criterion()
+                                           : measures::MoveCriterion{.settling = measures::Settling::in_band};
   const std::vector<SettledMoves> moves = settled_by_world(
       reported, reported.chosen.point, static_cast<std::size_t>(reported.study.worlds), time_in(goal));
-  double end = question.claim() ? question.claim()->within.time : 0.0;
+  double end = question.goal() ? question.goal()->within.time : 0.0;
   for (const SettledMoves& one : moves) end = std::max(end, end_of(one));
   const bool colours = !inputs.empty();
   const std::size_t input = leading_input(point);
@@ -379,15 +382,15 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
           "Proportion of the moves of each world, at {}, whose error stays within ±{} from a time "
           "on. {}. Bad worlds are coloured by {}{}.",
           label_of(reported, reported.chosen.point),
-          precision_text(reported, question.claim()
-                                       ? *question.claim()
+          precision_text(reported, question.goal()
+                                       ? *question.goal()
                                        : study::Goal{.band = reported.study.features.bands.values()[0]}),
           summary::bad_worlds_sentence(point, inputs, reported.summary.question), parameter,
           moves.size() > max_world_curves ? fmt::format("; shown are the first {}", max_world_curves) : ""),
       {std::move(data)});
-  if (question.claim())
+  if (question.goal())
     figure.parameters["asked"] = {
-        {{"within", question.claim()->within.time}, {"moves", question.claim()->moves}}};
+        {{"within", question.goal()->within.time}, {"moves", question.goal()->moves}}};
   return figure;
 }
 
@@ -409,18 +412,19 @@ Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& poi
         ordered_json::array({world, datum(parameter.values[world]), datum(rate.value), datum(rate.low),
                              datum(rate.high), point.bad[world] ? "bad world" : "other world"}));
   }
-  Figure figure = figure_of(
-      "world-rate", fmt::format("world-rate-{}", input + 1),
-      fmt::format("Does {} decide whether a world is good?", parameter.name),
-      fmt::format("Proportion of the {} in each world, at {}, with one-sided bounds {}.",
-                  goal::judged_meeting(reported.summary.question), label_of(reported, reported.chosen.point),
-                  point.goal ? "which all hold together with the confidence of the goal"
-                             : "each world alone, with 95 % confidence"),
-      {std::move(data)});
+  Figure figure =
+      figure_of("world-rate", fmt::format("world-rate-{}", input + 1),
+                fmt::format("Does {} decide whether a world is good?", parameter.name),
+                fmt::format("Proportion of the {} in each world, at {}, with one-sided bounds {}.",
+                            goal::noun_of_judged_rate(reported.summary.question),
+                            label_of(reported, reported.chosen.point),
+                            point.goal ? "which all hold together with the confidence of the goal"
+                                       : "each world alone, with 95 % confidence"),
+                {std::move(data)});
   const auto [least, largest] = std::ranges::minmax(parameter.values);
   if (least > 0.0 && largest > 5.0 * least) figure.parameters["scale"] = "log";
-  if (const std::optional<study::Goal>& claim = reported.summary.question.claim())
-    figure.parameters["asked"] = {{{"rate", claim->machines.value_or(claim->moves)}}};
+  if (const std::optional<study::Goal>& claim = reported.summary.question.goal())
+    figure.parameters["asked"] = {{{"rate", study::demanded_proportion(*claim)}}};
   return figure;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/question_text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/cells_of_point.hpp"
@@ -39,23 +40,23 @@ struct ShownLine {
                             verdict.machines_meeting,
                             shown.goals.front().shape().machines};
     if (verdict.worlds.empty()) return rate;
-    const std::size_t world = goal::worst_worlds_first(*question.claim(), verdict).front();
+    const std::size_t world = goal::worst_worlds_first(*question.goal(), verdict).front();
     rate.hits = verdict.worlds[world].machines_meeting;
     rate.events = std::ssize(shown.goals[question.parts.front().number].sum({.world = world}).machines);
     return rate;
   }
   /// Proportion that the goal requires; null without a goal.
   ordered_json asked() const {
-    if (!question.claim()) return nullptr;
-    return question.claim()->machines.value_or(question.claim()->moves);
+    if (!question.goal()) return nullptr;
+    return study::demanded_proportion(*question.goal());
   }
 };
 
 std::vector<ShownLine> shown_lines(const ReportedStudy& reported) {
   std::vector<ShownLine> lines;
-  for (const goal::JudgedPart& part : question_of(reported).parts) {
+  for (const goal::JudgedCriterion& part : question_of(reported).parts) {
     for (const ReportedPart& one : parts_of(reported)) {
-      lines.push_back({has_several(question_of(reported)) ? part.claim->name : "", one.setting, one.study,
+      lines.push_back({has_several(question_of(reported)) ? part.goal->name : "", one.setting, one.study,
                        only(question_of(one.study), part.number)});
     }
   }
@@ -72,11 +73,11 @@ struct RateWords {
 
 RateWords words_of_rate(const ReportedStudy& reported) {
   const goal::Question& question = question_of(reported);
-  const goal::QuestionWords& words = words_of(question);
-  const auto of_machines = [](const goal::JudgedPart& part) { return part.claim && part.claim->machines; };
+  const auto of_machines = [](const goal::JudgedCriterion& part) { return part.goal && part.goal->machines; };
   if (std::ranges::none_of(question.parts, of_machines))
-    return {std::string(words.rate), std::string(words.hits), std::string(words.events),
-            std::string(words.meeting)};
+    return question.goal()
+               ? RateWords{"rate of moves in goal", "moves in goal", "moves", "moves that meet the goal"}
+               : RateWords{"success rate", "successes", "trials", meeting_noun(question)};
   if (std::ranges::all_of(question.parts, of_machines))
     return {"proportion of machines that meet the goal", "machines in goal", "machines",
             "machines that meet the goal in its proportion of moves"};
@@ -118,7 +119,7 @@ ordered_json row_of(const std::string& label, const ShownLine& line, const goal:
 std::string bounds_note(const ReportedStudy& reported, std::string_view line, std::string_view bounds) {
   return fmt::format(
       "{}The {} are {}, for each point separately.",
-      question_of(reported).claim() ? fmt::format("The {} line is what the goal asks for. ", line) : "",
+      question_of(reported).goal() ? fmt::format("The {} line is what the goal asks for. ", line) : "",
       bounds, shown_bounds(reported));
 }
 
@@ -171,7 +172,7 @@ Figure row_per_point(const ReportedStudy& reported) {
     for (const ShownLine& line : lines)
       data.rows.push_back(row_of(label_of_line(reported, point, line, alone), line, line.rate(point)));
   }
-  const char* const title = !question.claim()        ? "How many trials succeed?"
+  const char* const title = !question.goal()         ? "How many trials succeed?"
                             : !alone                 ? "Which design points meet the goal?"
                             : has_settings(reported) ? "Is the goal met under each condition?"
                                                      : "Is the goal met?";
@@ -231,8 +232,8 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   }
   Figure figure =
       figure_of("success-along", "success",
-                question_of(reported).claim() ? fmt::format("At which {} is the goal met?", swept.name)
-                                              : fmt::format("How does success depend on {}?", swept.name),
+                question_of(reported).goal() ? fmt::format("At which {} is the goal met?", swept.name)
+                                             : fmt::format("How does success depend on {}?", swept.name),
                 caption + bounds_note(reported, "dashed", "bands"), {std::move(data)});
   const std::vector<double> values = values_of(swept);
   figure.parameters["scale"] = spaced_by_ratio(values) ? "log" : "linear";
@@ -295,7 +296,7 @@ FigureData cells_of(const MapOfPoints& map) {
                     {"y_to", "", map.y.axis.unit},
                     {"x", map.x.axis.name, map.x.axis.unit},
                     {"y", map.y.axis.name, map.y.axis.unit},
-                    {"rate", std::string(words_of(question_of(map.reported)).rate), "1"},
+                    {"rate", std::string(name_of_rate(question_of(map.reported))), "1"},
                     {"low", "lower 95 % bound", "1"},
                     {"high", "upper 95 % bound", "1"},
                     {"stable", "(6) holds in", "1"},
@@ -360,7 +361,7 @@ FigureData goal_boundary(const MapOfPoints& map) {
   FigureData data = boundaries_data();
   const std::size_t columns = map.x.values.size();
   std::vector<std::int64_t> points = map.group.points;
-  if (!question_of(map.reported).claim() || points.size() != columns * map.y.values.size()) return data;
+  if (!question_of(map.reported).goal() || points.size() != columns * map.y.values.size()) return data;
   std::ranges::sort(points, {},
                     [&](std::int64_t point) { return std::pair(map.y.at(point), map.x.at(point)); });
   std::vector<CellEdges> cells;
@@ -374,12 +375,12 @@ FigureData goal_boundary(const MapOfPoints& map) {
 }
 
 Figure map_figure(const MapOfPoints& map, std::size_t number) {
-  const bool has_goal = question_of(map.reported).claim().has_value();
+  const bool has_goal = question_of(map.reported).goal().has_value();
   FigureData curves = curves_of(map);
   std::string caption = fmt::format(
       "Each cell is a design point. Its colour is the proportion of the {}. A star marks the chosen "
       "point. {}",
-      words_of(question_of(map.reported)).meeting,
+      meeting_noun(question_of(map.reported)),
       has_goal ? "The boundary encloses points at which the goal is met, as observed. " : "");
   if (!curves.rows.empty()) {
     caption +=
@@ -459,21 +460,21 @@ std::string bounds_text(const ReportedStudy& reported) {
 
 Figure rates_figure(const ReportedStudy& reported, const std::vector<summary::CellOfPoint>& ages) {
   const goal::Question& question = question_of(reported);
-  std::vector<AgeSeries> series{{question.claim() ? "moves in the goal" : "trials that succeed",
+  std::vector<AgeSeries> series{{question.goal() ? "moves in the goal" : "trials that succeed",
                                  [](const summary::CellOfPoint& age) { return std::optional(age.rate); },
                                  std::nullopt}};
-  const bool one_claim = question.claim() && !has_several(question);
-  if (one_claim) series.front().asked = question.claim()->moves;
-  if (question.claim())
+  const bool one_claim = question.goal() && !has_several(question);
+  if (one_claim) series.front().asked = question.goal()->moves;
+  if (question.goal())
     series.push_back({"machines in the goal", [](const summary::CellOfPoint& age) { return age.machines; },
-                      one_claim ? question.claim()->machines : std::nullopt});
+                      one_claim ? question.goal()->machines : std::nullopt});
   Figure figure = figure_of(
       "ages", "ages", "How long does it hold?",
       fmt::format(
           "Proportions at each age, at {}: for moves, those of the worst goal and condition{}; {}. Dashed: "
           "what is asked.",
           label_of(reported, reported.chosen.point),
-          question.claim() ? "; of machines those that meet every goal under every condition" : "",
+          question.goal() ? "; of machines those that meet every goal under every condition" : "",
           bounds_text(reported)),
       {data_of_ages(reported, ages, series)});
   scale_ages(figure, question.settings.ages.at);
@@ -503,7 +504,7 @@ std::vector<Figure> age_figures(const ReportedStudy& reported) {
   std::vector<Figure> figures;
   if (ages.empty()) return figures;
   figures.push_back(rates_figure(reported, ages));
-  if (question_of(reported).claim()) figures.push_back(lives_figure(reported, ages));
+  if (question_of(reported).goal()) figures.push_back(lives_figure(reported, ages));
   return figures;
 }
 

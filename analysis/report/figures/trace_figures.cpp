@@ -38,7 +38,7 @@ std::vector<RankedTrials> ranked_trials(const ReportedStudy& reported) {
 /// meet the goals".
 std::string course_of(const goal::Question& question, std::span<const trial::MoveOutcome> moves) {
   const double time = settling_time(question, moves.first(1));
-  const std::string_view settles = words_of(question).settles;
+  const std::string_view settles = question.goal() ? "settles in the goal's band" : "arrives";
   return fmt::format("{}{}, {}",
                      std::isfinite(time) ? fmt::format("{} after {}", settles, text::quantity_text(time, "s"))
                                          : fmt::format("never {}", settles),
@@ -59,27 +59,27 @@ struct ShownMass {
   std::optional<motion::EncoderPlace> mass{};
   /// True to show the position error (trial::PositionError), not the error of the readings.
   bool of_position{false};
-  std::vector<goal::JudgedPart> parts{};  ///< Parts of the goals that judge this mass.
+  std::vector<goal::JudgedCriterion> parts{};  ///< Parts of the goals that judge this mass.
 };
 
 /// The masses (motor, load) whose response is shown: the mass that the first goal judges, and the other mass
 /// if a goal or an encoder refers to it.
 std::vector<ShownMass> shown_masses(const goal::Question& question, const trial::TrialParameters& p) {
   using enum motion::EncoderPlace;
-  const auto mass_of = [](const goal::JudgedPart& part) {
-    return part.claim ? part.claim->of : std::optional<motion::EncoderPlace>();
+  const auto mass_of = [](const goal::JudgedCriterion& part) {
+    return part.goal ? part.goal->of : std::optional<motion::EncoderPlace>();
   };
   std::vector<ShownMass> shown{{.mass = mass_of(question.parts.front())}};
   const motion::EncoderPlace closing = motion::has_load(p.plant) ? p.plant.load.encoder : motor;
   const motion::EncoderPlace first = shown.front().mass.value_or(closing);
-  const bool of_either = question.claim() && question.claim()->of_either;
+  const bool of_either = question.goal() && question.goal()->of_either;
   ShownMass other{.mass = first == motor ? load : motor};
   other.of_position = other.mass != closing;  // which no reading is of
-  for (const goal::JudgedPart& part : question.parts) {
+  for (const goal::JudgedCriterion& part : question.parts) {
     const bool of_other = !of_either && mass_of(part).value_or(first) != first;
     (of_other ? other : shown.front()).parts.push_back(part);
-    if (part.claim && part.claim->beside_load && other.mass == load) other.parts.push_back(part);
-    (of_other ? other : shown.front()).of_position |= part.claim && part.claim->tolerance;
+    if (part.goal && part.goal->beside_load && other.mass == load) other.parts.push_back(part);
+    (of_other ? other : shown.front()).of_position |= part.goal && part.goal->tolerance;
   }
   if (!other.parts.empty() || (!of_either && motion::has_load(p.plant) && p.encoder.other.counts > 0.0))
     shown.push_back(std::move(other));
@@ -117,7 +117,7 @@ double half_width(const std::optional<study::Goal>& goal, double resolution) {
 
 /// Dataset of boxes that show the goals over time: one for each move that a goal judges, from the allowed
 /// time to the end of the move.
-FigureData boxes_of(const std::vector<goal::JudgedPart>& parts, const ReplayedTrial& replayed) {
+FigureData boxes_of(const std::vector<goal::JudgedCriterion>& parts, const ReplayedTrial& replayed) {
   const trial::TrialParameters& parameters = replayed.parameters;
   FigureData data{"goals",
                   {{"goal", "goal", ""},
@@ -127,15 +127,15 @@ FigureData boxes_of(const std::vector<goal::JudgedPart>& parts, const ReplayedTr
                    {"high", "to", "rad"}}};
   const double resolution = loop::fine_resolution(parameters.encoder);
   const std::vector<std::int64_t> starts = starts_of_moves(parameters);
-  for (const goal::JudgedPart& part : parts) {
-    const std::vector<std::int64_t> on = part.claim ? part.claim->on : std::vector<std::int64_t>{};
-    const double half = half_width(part.claim, resolution);
+  for (const goal::JudgedCriterion& part : parts) {
+    const std::vector<std::int64_t> on = part.goal ? part.goal->on : std::vector<std::int64_t>{};
+    const double half = half_width(part.goal, resolution);
     for (std::size_t move = 0; move + 1 < starts.size(); ++move) {
       if (!on.empty() && std::ranges::find(on, static_cast<std::int64_t>(move)) == on.end()) continue;
       const double start = static_cast<double>(starts[move]) / parameters.controller.sample_rate;
       data.rows.push_back(
-          {part.claim ? part.claim->name : "",
-           datum(start + measures::allowed_time(part.counted, replayed.result.outcome.moves[move])),
+          {part.goal ? part.goal->name : "",
+           datum(start + measures::allowed_time(part.criterion, replayed.result.outcome.moves[move])),
            datum(static_cast<double>(starts[move + 1]) / parameters.controller.sample_rate), datum(-half),
            datum(half)});
     }
@@ -217,8 +217,8 @@ Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTr
   const trial::TrialParameters& parameters = replayed.front().parameters;
   const double resolution = loop::fine_resolution(parameters.encoder);
   double smallest = INFINITY;
-  for (const goal::JudgedPart& part : shown.parts)
-    smallest = std::min(smallest, half_width(part.claim, resolution));
+  for (const goal::JudgedCriterion& part : shown.parts)
+    smallest = std::min(smallest, half_width(part.goal, resolution));
   if (shown.parts.empty()) smallest = half_width(std::nullopt, resolution);
   largest = std::max(1.2 * largest, 3.0 * smallest);
   const char* const subject = reported.study.machines > 0 ? "machine" : "trial";
@@ -226,11 +226,11 @@ Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTr
   const std::string of_mass = one_of_two ? fmt::format(" of the {}", study::mass_text(mass)) : "";
   const bool is_beside =
       one_of_two && !shown.parts.empty() && std::ranges::all_of(shown.parts, [&](const auto& part) {
-        return part.claim && part.claim->beside_load && part.claim->of != shown.mass;
+        return part.goal && part.goal->beside_load && part.goal->of != shown.mass;
       });
   const std::string boxes = shown.parts.empty() ? "No goal applies to this mass."
                             : is_beside         ? "The shaded boxes are what the goal asks of the motor."
-                            : question.claim()  ? "The goal asks that the error stay in the shaded boxes."
+                            : question.goal()   ? "The goal asks that the error stay in the shaded boxes."
                                                 : "The shaded box is zero counts.";
   Figure figure = figure_of(
       "response", "response",

@@ -174,7 +174,8 @@ std::string limit_text(const study::GoalLimit& limit, const study::Study& study)
     if (measure.field.column.name == limit.measure)
       unit = parameters::unit_on(study.units.axis, measure.field.column.unit);
   }
-  return fmt::format("{} ≤ {}", words, quantity_text(limit.largest, unit));
+  return fmt::format("{} {} {}", words, text::sign_of(limit.limit.relation),
+                     quantity_text(limit.limit.value, unit));
 }
 
 /// A row of the table of requirements: a goal in a setting (condition at an age), or the moves that no goal
@@ -236,7 +237,7 @@ std::vector<Cell> cells_of(const RequirementRow& row, const ReportedStudy& repor
                             const std::function<std::string(const MoveBehaviour&)>& cell) {
     cells.emplace_back(head, row.moves ? cell(*row.moves) : "");
   };
-  if (question_of(reported).claim()) {
+  if (question_of(reported).goal()) {
     of_claim("verdict", verdict_cell);
     of_claim("moves in the goal", moves_cell);
     if (std::ranges::any_of(reported.study.goals,

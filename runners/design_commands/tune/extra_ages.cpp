@@ -111,9 +111,9 @@ std::vector<document::Figure> lost_ages_figures(const Tuning& tuning) {
     const std::string name =
         (goal.machines ? "machines in the goal" : "moves in the goal") + tuning::text_of(study, claim);
     for (const tuning::AgeVerdict& at : life->tried) {
-      const goal::BoundedProportion& rate = tuning::judged_rate(goal, at.claims[i]);
+      const goal::BoundedProportion& rate = goal::judged_rate(goal, at.claims[i]);
       data.rows.push_back({name, datum(at.age), datum(rate.value), datum(rate.low), datum(rate.high),
-                           datum(tuning::asked_rate(goal))});
+                           datum(study::demanded_proportion(goal))});
     }
   }
   document::Figure figure = report::figure_of(

@@ -147,7 +147,7 @@ bool is_better_within_ranges(const Alternative& one, const Tuning& tuning) {
     return one.criterion < clearly * tuning.answer.proof->criterion;
   if (one.verdict->status == goal::Status::met) return true;
   const study::Goal& goal = worst_goal(tuning);
-  return tuning::judged_rate(goal, *one.verdict).low > tuning::judged_rate(goal, proven).high;
+  return goal::judged_rate(goal, *one.verdict).low > goal::judged_rate(goal, proven).high;
 }
 
 std::string better_control_sentence(const Tuning& tuning) {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "core/numerics/roots.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
@@ -54,12 +54,12 @@ void find_lost_delay(const tuning::TunedAxis& axis, MoreDelay& found) {
 /// tolerance instead of a band.
 /// @param goal index of the goal
 std::optional<double> rate_in_wider_band(const tuning::TunedAxis& axis, std::size_t goal) {
-  const std::optional<std::size_t> slot = measures::asked_of_moves(axis.tuned).at(goal).slot;
-  if (!slot) return std::nullopt;
-  const tuning::Change wider = [slot](trial::TrialParameters& p) {
-    for (std::size_t b = *slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
+  const measures::MoveCriterion criterion = measures::move_criteria_of(axis.tuned).at(goal);
+  if (criterion.settling != measures::Settling::in_band) return std::nullopt;
+  const tuning::Change wider = [slot = criterion.slot](trial::TrialParameters& p) {
+    for (std::size_t b = slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
   };
-  const tuning::Estimate estimate =
+  const tuning::RateEstimate estimate =
       tuning::estimate_on(axis.tuned, axis.search.machines(), axis.machines().count, &wider, axis.effort);
   const std::size_t settings = tuning::aim_of(axis.tuned).settings;
   return std::ranges::min(std::span(estimate.rates).subspan(goal * settings, settings));

@@ -63,7 +63,7 @@ void simulate_cell(const TunedAxis& axis, const Values& values, MapCell& cell) {
       tuning::results_of(*study, axis.search.machines(), machines_of_cell, nullptr, axis.effort);
   cell.keeps_margins = axis.search.may_keep(values, tuning::has_slid(machines));
   const tuning::Aim aim = tuning::aim_of(*study);
-  const tuning::Estimate estimate = estimate_of(aim, machines, machines_of_cell);
+  const tuning::RateEstimate estimate = estimate_of(aim, machines, machines_of_cell);
   cell.rate = estimate.rate;
   cell.seems_met = reaches(aim, estimate);
   cell.criterion = estimate.criterion;

@@ -191,7 +191,7 @@ std::vector<document::Figure> frontier_figures(const Tuning& tuning) {
   const study::Goal& goal = worst_goal(tuning);
   TriedPoint tuned{answer.tuned.values, {}};
   tuned.estimate.criterion = answer.proof->criterion;
-  tuned.estimate.rate = tuning::judged_rate(goal, verdict).value;
+  tuned.estimate.rate = goal::judged_rate(goal, verdict).value;
   document::Figure figure = report::figure_of(
       "tuning-frontier", "tuning-frontier", "What does more speed cost?",
       "The points that the search tried, with a finite criterion; what the goal asks for is dashed. The line "
@@ -200,7 +200,9 @@ std::vector<document::Figure> frontier_figures(const Tuning& tuning) {
       {points_data("frontier", answer, answer.searched.frontier),
        points_data("tried", answer, tried),
        points_data("tuned", answer, {tuned}),
-       {"asked", {{"rate", "asked for", "1"}}, {nlohmann::ordered_json::array({tuning::asked_rate(goal)})}}});
+       {"asked",
+        {{"rate", "asked for", "1"}},
+        {nlohmann::ordered_json::array({study::demanded_proportion(goal)})}}});
   figure.parameters["criterion"] = criterion_title(tuning.study);
   return {std::move(figure)};
 }

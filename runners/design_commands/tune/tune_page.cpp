@@ -20,7 +20,7 @@ namespace {
 /// Success rate of the worst goal with 95 % confidence bounds, from the machines that a running search has
 /// simulated.
 document::Bounded bounded_rate(const SearchMoment& moment) {
-  const tuning::Estimate& estimate = moment.progress.estimate;
+  const tuning::RateEstimate& estimate = moment.progress.estimate;
   const auto meeting = std::llround(estimate.rate * static_cast<double>(estimate.machines));
   return document::bounded(estimate.rate, statistics::clopper_pearson(meeting, estimate.machines));
 }

@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/goal/goal_text.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/text/text.hpp"
 #include "runners/design_commands/design_commands.hpp"
@@ -72,9 +72,9 @@ std::string missed_by(const Tuning& tuning) {
   const study::Goal& goal = worst_goal(tuning);
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
   return fmt::format("at the best values found, {}, {:.4g} % of the {}, and at least {:g} % are wanted",
-                     tuned_text(tuning), 100.0 * tuning::judged_rate(goal, verdict).value,
+                     tuned_text(tuning), 100.0 * goal::judged_rate(goal, verdict).value,
                      rated_words(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict))),
-                     100.0 * tuning::asked_rate(goal));
+                     100.0 * study::demanded_proportion(goal));
 }
 
 /// Reason why a search whose best values miss the goal does not show that the goal is out of reach.
@@ -114,7 +114,7 @@ std::string lacking_sentence(const Tuning& tuning) {
   std::string lines;
   if (goal.machines) {
     const std::int64_t trials = study::draw_count(study) / study.machines;
-    const measures::CountedGoal asked = measures::asked_of_moves(tuning.study)[proof.verdict.goal];
+    const measures::MoveCriterion asked = measures::move_criteria_of(tuning.study)[proof.verdict.goal];
     lines = goal::one_machine_text(
         goal, {study.machines, trials, trials * measures::asked_moves(asked, study.moves)}, proof.verdict);
   }

@@ -129,7 +129,7 @@ class LifeOfClaims {
   std::array<Holds, 3> senses_of(std::size_t claim) const {
     const study::Goal& goal = study_.goals[tried_.front().claims[claim].goal];
     return {[=, &goal](const AgeVerdict& at) {
-              return judged_rate(goal, at.claims[claim]).value >= asked_rate(goal);
+              return goal::judged_rate(goal, at.claims[claim]).value >= study::demanded_proportion(goal);
             },
             [=](const AgeVerdict& at) { return at.claims[claim].status == goal::Status::met; },
             [=](const AgeVerdict& at) { return at.claims[claim].status != goal::Status::missed; }};

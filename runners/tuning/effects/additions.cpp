@@ -161,8 +161,8 @@ class ModeSearch {
       best.push_back(runs_.base().machines[machine]);
       for (ClaimResult& claim : best.back().claims) claim.met = claim.moves;
     }
-    const Estimate with = estimate_of(runs_.aim(), best, machines);
-    const Estimate without = estimate_of(runs_.aim(), runs_.base().machines, machines);
+    const RateEstimate with = estimate_of(runs_.aim(), best, machines);
+    const RateEstimate without = estimate_of(runs_.aim(), runs_.base().machines, machines);
     constexpr double rounding = 1e-9;
     const double allowed =
         allowed_loss + rounding + (machines < machines_ ? 1.0 / static_cast<double>(with.machines) : 0.0);

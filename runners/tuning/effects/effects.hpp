@@ -69,7 +69,7 @@ class EffectRuns {
   /// The point without any change, with the results of all machines.
   const ChangedPoint& base() const { return base_; }
   /// Success rates and criterion of a point, estimated from the machines that have run so far.
-  Estimate estimate(const ChangedPoint& point) const {
+  RateEstimate estimate(const ChangedPoint& point) const {
     return estimate_of(aim_, point.machines, machines_.count);
   }
 
@@ -125,7 +125,7 @@ struct PairedGain {
 /// @param before results of the machines without the change
 /// @param after results of the same machines with the change
 /// @param alternatives number of causes, or of pairs of causes, that are tried
-PairedGain paired_gain(const Claim& claim, std::size_t number, std::span<const MachineResult> before,
+PairedGain paired_gain(const study::Goal& claim, std::size_t number, std::span<const MachineResult> before,
                        std::span<const MachineResult> after, std::int64_t alternatives);
 
 /// Smallest number of machines with which a paired comparison can show a gain, if all of them gain.
@@ -141,7 +141,7 @@ struct Limit {
   /// Assumption of the change, or a limitation of its rate; without a rate, why it was not simulated.
   std::string note{};
   /// Estimate of the success rates from the simulated machines; `rate` is taken from it.
-  Estimate estimate{};
+  RateEstimate estimate{};
   double asked{1.0};  ///< Rate that the worst claim (goal in a setting) asks for.
   bool holds{false};  ///< Whether the simulated machines meet every goal in every setting.
   /// Fraction of the unchanged point's failures that the change avoids, 0 to 1; negative if failures
@@ -163,7 +163,7 @@ struct Limit {
 /// Callback that gets the name of the running stage, for the status line on the terminal.
 using TellStage = std::function<void(const std::string&)>;
 
-/// Whether the result `a` ranks below `b`, because its Estimate::margin is smaller. A result that was not
+/// Whether the result `a` ranks below `b`, because its RateEstimate::margin is smaller. A result that was not
 /// simulated ranks below all others.
 bool is_lower(const Limit& a, const Limit& b);
 /// Whether no simulated move, or machine, misses any goal in any setting.
@@ -175,7 +175,7 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point);
 
 /// Simulates the first `count` machines of a study, and estimates the success rates from them.
 /// @param change changes the parameters of each drawn trial; null: no change
-Estimate estimate_on(const study::Study& study, const trials::Replicates& machines, std::int64_t count,
+RateEstimate estimate_on(const study::Study& study, const trials::Replicates& machines, std::int64_t count,
                      const Change* change, const trials::Effort& effort);
 
 /// Success rates on all machines with each possible cause of failures switched off, and with the best pair of

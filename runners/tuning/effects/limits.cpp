@@ -23,7 +23,7 @@ double allowed_error(std::int64_t alternatives) {
 
 }  // namespace
 
-PairedGain paired_gain(const Claim& claim, std::size_t number, std::span<const MachineResult> before,
+PairedGain paired_gain(const study::Goal& claim, std::size_t number, std::span<const MachineResult> before,
                        std::span<const MachineResult> after, std::int64_t alternatives) {
   PairedGain gain{.machines = std::min(std::ssize(before), std::ssize(after))};
   for (std::size_t machine = 0; machine < static_cast<std::size_t>(gain.machines); ++machine) {
@@ -56,7 +56,7 @@ void name_claims(const EffectRuns& runs, Limit& limit) {
   }
 }
 
-/// Estimate::margin (worst success rate compared with the wanted one, larger is better) of a changed point on
+/// RateEstimate::margin (worst success rate compared with the wanted one, larger is better) of a changed point on
 /// its first `count` machines; −infinity if the point cannot be simulated.
 double margin_on(const EffectRuns& runs, const ChangedPoint& point, std::int64_t count) {
   if (!point.refusal.empty()) return -std::numeric_limits<double>::infinity();
@@ -92,7 +92,7 @@ std::int64_t first_machines_of_pairs(std::int64_t machines) {
   return std::min(machines, std::clamp(machines / 8, fewest, most));
 }
 
-/// The pair of causes with the largest Estimate::margin on all machines. Pairs that fall behind on fewer
+/// The pair of causes with the largest RateEstimate::margin on all machines. Pairs that fall behind on fewer
 /// machines are dropped before (keep_promising()). Null if none is left.
 /// @param alone [cause] points with a single cause switched off
 const ChangedPoint* best_pair(const EffectRuns& runs, std::span<const ChangedPoint> alone,
@@ -178,8 +178,8 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point) {
   if (!point.refusal.empty()) return {point.name, std::nullopt, point.refusal};
   Limit limit{point.name, std::nullopt, point.note, runs.estimate(point)};
   limit.rate = limit.estimate.rate;
-  limit.asked = wanted_rate(runs.aim().claims[limit.estimate.worst]);
-  const Estimate base = runs.estimate(runs.base());
+  limit.asked = study::demanded_proportion(runs.aim().claims[limit.estimate.worst]);
+  const RateEstimate base = runs.estimate(runs.base());
   if (&point != &runs.base() && base.rate < 1.0 && limit.estimate.worst == base.worst &&
       limit.estimate.machines == base.machines)
     limit.avoided = (limit.estimate.rate - base.rate) / (1.0 - base.rate);
@@ -188,7 +188,7 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point) {
   return limit;
 }
 
-Estimate estimate_on(const study::Study& study, const trials::Replicates& machines, std::int64_t count,
+RateEstimate estimate_on(const study::Study& study, const trials::Replicates& machines, std::int64_t count,
                      const Change* change, const trials::Effort& effort) {
   return estimate_of(aim_of(study), results_of(study, machines, count, change, effort), count);
 }

@@ -12,7 +12,7 @@
 
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/goal/question.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
@@ -50,7 +50,7 @@ void add_value(std::vector<double>& values, const Criterion& criterion, const tr
 class TrialCounter {
  public:
   explicit TrialCounter(const study::Study& study)
-      : goals_(measures::asked_of_moves(study)),
+      : goals_(measures::move_criteria_of(study)),
         criteria_(criteria_of(study)),
         settings_(static_cast<std::size_t>(study.settings.total())) {}
 
@@ -69,7 +69,7 @@ class TrialCounter {
   }
 
  private:
-  std::vector<measures::CountedGoal> goals_;
+  std::vector<measures::MoveCriterion> goals_;
   std::vector<Criterion> criteria_;
   std::size_t settings_;
 };
@@ -223,7 +223,7 @@ Criterion criterion_of(const study::Study& study, std::size_t goal, const std::s
   const std::string name = text.substr(0, dot);
   const bool lacks_band = name.starts_with("band_") && !name.ends_with("]") && dot != std::string::npos;
   const std::string with_band =
-      lacks_band ? fmt::format("{}[{}]{}", name, question.claim()->band, text.substr(dot)) : text;
+      lacks_band ? fmt::format("{}[{}]{}", name, question.goal()->band, text.substr(dot)) : text;
   if (const std::string_view meanings = trial::meanings_of_settling_time(text); !meanings.empty())
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: tune.minimise: '{}' may mean two measures; expected {}", study.name, text,
@@ -283,8 +283,7 @@ Aim aim_of(const study::Study& study) {
           .worlds = study.worlds};
   const std::vector<study::Goal> goals =
       study.goals.empty() ? std::vector{study::Goal{.moves = 1.0}} : study.goals;
-  for (const study::Goal& goal : goals)
-    aim.claims.insert(aim.claims.end(), aim.settings, {goal.moves, goal.machines});
+  for (const study::Goal& goal : goals) aim.claims.insert(aim.claims.end(), aim.settings, goal);
   return aim;
 }
 

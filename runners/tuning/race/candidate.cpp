@@ -14,7 +14,7 @@
 namespace zerocount::tuning {
 namespace {
 
-bool machine_meets(const Claim& claim, const ClaimResult& result) {
+bool machine_meets(const study::Goal& claim, const ClaimResult& result) {
   return result.met >= claim.moves * result.moves;
 }
 
@@ -44,7 +44,7 @@ struct ClaimEstimate {
 };
 
 ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, std::span<const MachineResult> machines) {
-  const Claim& wanted = aim.claims[claim];
+  const study::Goal& wanted = aim.claims[claim];
   std::vector<WorldCounts> counts(worlds_of(aim));
   for (std::size_t machine = 0; machine < machines.size(); ++machine) {
     const ClaimResult& result = machines[machine].claims[claim];
@@ -63,7 +63,8 @@ ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, std::span<con
                             : moves;
     worst.moves = worst.has_moves ? std::min(worst.moves, moves) : moves;
     worst.rate = worst.has_moves ? std::min(worst.rate, rate) : rate;
-    worst.near_goal += std::min(rate, wanted_rate(wanted)) / static_cast<double>(counts.size());
+    worst.near_goal +=
+        std::min(rate, study::demanded_proportion(wanted)) / static_cast<double>(counts.size());
     worst.has_moves = true;
   }
   return worst;
@@ -78,8 +79,8 @@ double margin_of(double rate, double wanted, std::int64_t machines) {
 }
 
 /// Distance of a claim's observed rates from the wanted ones, without confidence bounds.
-goal::Standing standing_of(const Claim& claim, const ClaimEstimate& estimate, std::int64_t machines) {
-  goal::Standing standing{.observed = margin_of(estimate.rate, wanted_rate(claim), machines)};
+goal::Standing standing_of(const study::Goal& claim, const ClaimEstimate& estimate, std::int64_t machines) {
+  goal::Standing standing{.observed = margin_of(estimate.rate, study::demanded_proportion(claim), machines)};
   if (claim.machines) standing.observed_of_moves = margin_of(estimate.moves, claim.moves, machines);
   return standing;
 }
@@ -90,9 +91,10 @@ double standard_error(double rate, std::int64_t machines) {
   return std::sqrt(cautious * (1.0 - cautious) / std::max(n, 1.0));
 }
 
-bool seems_to_hold(const Claim& claim, double rate, std::int64_t machines) {
+bool seems_to_hold(const study::Goal& claim, double rate, std::int64_t machines) {
   const double error = standard_error(rate, machines);
-  return rate >= wanted_rate(claim) + std::min(error, 0.5 * (1.0 - wanted_rate(claim)));
+  return rate >=
+         study::demanded_proportion(claim) + std::min(error, 0.5 * (1.0 - study::demanded_proportion(claim)));
 }
 
 /// The claim (goal in a setting) whose criterion is the largest of a candidate's claims, and the value of
@@ -118,24 +120,24 @@ constexpr std::int64_t one_in = 20;  // points must be telling
 
 /// Confidence bounds on the proportion of moves that meet the worst goal. The moves of a machine may depend
 /// on each other, so each machine counts as one observation.
-statistics::ConfidenceInterval bounds_of(const Estimate& estimate) {
+statistics::ConfidenceInterval bounds_of(const RateEstimate& estimate) {
   const auto met =
       static_cast<std::int64_t>(std::floor(estimate.moves * static_cast<double>(estimate.machines)));
   return statistics::clopper_pearson(met, estimate.machines, confidence);
 }
 
-bool is_telling(const Aim& aim, const Estimate& estimate) {
-  return estimate.machines > 0 && estimate.rate < wanted_rate(aim.claims[estimate.worst]) &&
+bool is_telling(const Aim& aim, const RateEstimate& estimate) {
+  return estimate.machines > 0 && estimate.rate < study::demanded_proportion(aim.claims[estimate.worst]) &&
          bounds_of(estimate).low > hardly_any;
 }
 
 }  // namespace
 
-Estimate estimate_of(const Aim& aim, std::span<const MachineResult> machines, std::int64_t count) {
+RateEstimate estimate_of(const Aim& aim, std::span<const MachineResult> machines, std::int64_t count) {
   count = std::min<std::int64_t>(count, std::ssize(machines));
   machines = machines.first(static_cast<std::size_t>(count));
   const auto worlds = static_cast<std::int64_t>(worlds_of(aim));
-  Estimate estimate;
+  RateEstimate estimate;
   goal::Standing worst;
   std::vector<ClaimEstimate> claims;
   bool has_moves = false;
@@ -165,31 +167,32 @@ Estimate estimate_of(const Aim& aim, std::span<const MachineResult> machines, st
   return estimate;
 }
 
-std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates,
+std::vector<RateEstimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates,
                                    std::int64_t machines) {
-  std::vector<Estimate> estimates(candidates.size());
+  std::vector<RateEstimate> estimates(candidates.size());
   parallel::for_each_index(
       candidates.size(),
       [&](std::size_t i) { estimates[i] = estimate_of(aim, candidates[i].machines, machines); }, "estimate");
   return estimates;
 }
 
-bool reaches(const Aim& aim, const Estimate& estimate) {
+bool reaches(const Aim& aim, const RateEstimate& estimate) {
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
-    if (estimate.rates[claim] < wanted_rate(aim.claims[claim])) return false;
+    if (estimate.rates[claim] < study::demanded_proportion(aim.claims[claim])) return false;
   }
   return true;
 }
 
-bool may_meet(const Aim& aim, const Estimate& estimate) {
+bool may_meet(const Aim& aim, const RateEstimate& estimate) {
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
     const double rate = estimate.rates[claim];
-    if (rate + 2.0 * standard_error(rate, estimate.machines) < wanted_rate(aim.claims[claim])) return false;
+    if (rate + 2.0 * standard_error(rate, estimate.machines) < study::demanded_proportion(aim.claims[claim]))
+      return false;
   }
   return true;
 }
 
-bool is_better(const Aim& aim, const Estimate& a, const Estimate& b) {
+bool is_better(const Aim& aim, const RateEstimate& a, const RateEstimate& b) {
   if (a.missing != b.missing) return a.missing < b.missing;
   if (a.missing == 0 && a.criterion != b.criterion) return a.criterion < b.criterion;
   if (aim.worlds > 0 && a.near_goal != b.near_goal) return a.near_goal > b.near_goal;
@@ -199,7 +202,7 @@ bool is_better(const Aim& aim, const Estimate& a, const Estimate& b) {
   return a.criterion < b.criterion;
 }
 
-double goal_loss(const Claim& claim, const ClaimResult& result) {
+double goal_loss(const study::Goal& claim, const ClaimResult& result) {
   if (claim.machines) return machine_meets(claim, result) ? 0.0 : 1.0;
   return result.moves == 0 ? 0.0 : 1.0 - met_proportion(result);
 }
@@ -244,11 +247,11 @@ double evidence_of_increase(std::span<const double> differences) {
 bool surely_meets(const Aim& aim, const Candidate& candidate, double alpha) {
   const std::size_t worlds = worlds_of(aim);
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
-    const Claim& wanted = aim.claims[claim];
+    const study::Goal& wanted = aim.claims[claim];
     for (std::size_t world = 0; world < worlds; ++world) {
       std::vector<double> differences;
       for (std::size_t i = world; i < candidate.machines.size(); i += worlds)
-        differences.push_back(1.0 - wanted_rate(wanted) -
+        differences.push_back(1.0 - study::demanded_proportion(wanted) -
                               goal_loss(wanted, candidate.machines[i].claims[claim]));
       if (evidence_of_increase(differences) <= 1.0 / alpha) return false;
     }
@@ -260,13 +263,13 @@ bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& 
   const std::size_t worlds = worlds_of(aim);
   const double wanted_evidence = static_cast<double>(worlds * aim.claims.size()) / alpha;
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
-    const Claim& wanted = aim.claims[claim];
+    const study::Goal& wanted = aim.claims[claim];
     for (std::size_t world = 0; world < worlds; ++world) {
       std::vector<double> beyond_goal;
       std::vector<double> beyond_reliable;
       for (std::size_t i = world; i < common_machines(candidate, reliable); i += worlds) {
         const double loss = goal_loss(wanted, candidate.machines[i].claims[claim]);
-        beyond_goal.push_back(loss - (1.0 - wanted_rate(wanted)));
+        beyond_goal.push_back(loss - (1.0 - study::demanded_proportion(wanted)));
         beyond_reliable.push_back(loss - goal_loss(wanted, reliable.machines[i].claims[claim]));
       }
       if (evidence_of_increase(beyond_goal) > wanted_evidence &&

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "experiments/study/goal.hpp"
 #include "runners/tuning/race/search_space.hpp"
 
 namespace zerocount::tuning {
@@ -32,17 +33,11 @@ inline double met_proportion(const ClaimResult& claim) {
   return claim.moves == 0 ? 0.0 : static_cast<double>(claim.met) / claim.moves;
 }
 
-/// A claim that must hold: one goal in one setting (condition at an age).
-struct Claim {
-  double moves{0.99};  ///< study::Goal::moves, the proportion of moves that must meet the goal.
-  /// study::Goal::machines, the proportion of machines that must meet it; nothing: the goal does not ask for
-  /// machines.
-  std::optional<double> machines{};
-};
-
 /// Requirements on the candidates of a tuning. All claims must hold.
 struct Aim {
-  std::vector<Claim> claims{Claim{}};  ///< All pairs of goal and setting (condition at an age), goal by goal.
+  /// The goals of the study, each once for every setting (condition at an age), goal by goal. A goal in a
+  /// setting is a claim.
+  std::vector<study::Goal> claims{study::Goal{}};
   /// Number of settings (conditions at ages), which is the number of claims per goal.
   std::size_t settings{1};
   /// Probability (0 to 1) of the quantile that is the criterion, the value to be minimised.
@@ -70,7 +65,7 @@ inline bool has_slid(std::span<const MachineResult> machines) {
 /// between the logits of its rate and of the wanted rate. With worlds (draws of the values that all machines
 /// share), rates are those of the worst world, whereas the criterion is computed from the machines of all
 /// worlds.
-struct Estimate {
+struct RateEstimate {
   /// Proportion of moves that meet the goal of the worst claim. If the claim is about machines: proportion of
   /// machines.
   double rate{0.0};
@@ -95,38 +90,33 @@ struct Estimate {
 };
 
 /// Estimate from the first `count` of these machines; from all if there are fewer.
-Estimate estimate_of(const Aim& aim, std::span<const MachineResult> machines, std::int64_t count);
+RateEstimate estimate_of(const Aim& aim, std::span<const MachineResult> machines, std::int64_t count);
 
 /// [candidate] Estimate of each candidate from its first `machines` machines.
-std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates,
+std::vector<RateEstimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates,
                                    std::int64_t machines);
-
-/// Proportion that the claim asks for: of machines if the claim is about machines, of moves otherwise.
-inline double wanted_rate(const Claim& claim) {
-  return claim.machines.value_or(claim.moves);
-}
 
 /// Whether the rates from the candidate's machines meet all goals with one standard error to spare. A
 /// candidate that barely meets the goals would not pass the proof.
-inline bool seems_to_meet(const Estimate& estimate) {
+inline bool seems_to_meet(const RateEstimate& estimate) {
   return estimate.machines > 0 && estimate.missing == 0;
 }
 
 /// Whether the observed rate of every claim is at least the wanted one. No standard error is added.
-bool reaches(const Aim& aim, const Estimate& estimate);
+bool reaches(const Aim& aim, const RateEstimate& estimate);
 
 /// Whether the candidate may still meet all claims: no observed rate is more than two standard errors below
 /// the wanted one.
-bool may_meet(const Aim& aim, const Estimate& estimate);
+bool may_meet(const Aim& aim, const RateEstimate& estimate);
 
 /// Whether the candidate with the estimate `a` is better than the one with `b`. The candidate that seems to
 /// meet more goals is better. If both meet all goals, the smaller criterion is better. Otherwise the
 /// candidate whose worst claim is closer to the wanted rate is better; with worlds, the larger near_goal is.
-bool is_better(const Aim& aim, const Estimate& a, const Estimate& b);
+bool is_better(const Aim& aim, const RateEstimate& a, const RateEstimate& b);
 
 /// Loss of a machine for a claim, 0 to 1. For a claim about machines, the loss is 1 if the machine misses the
 /// goal. For other claims, it is the proportion of the machine's moves that miss the goal.
-double goal_loss(const Claim& claim, const ClaimResult& result);
+double goal_loss(const study::Goal& claim, const ClaimResult& result);
 
 /// Quantile of the criterion's values of one claim, pooled over these machines; infinity without values.
 double late_value(std::span<const MachineResult> machines, std::size_t claim, double quantile);
@@ -160,7 +150,7 @@ bool is_significantly_later(const Aim& aim, const Candidate& candidate, const Ca
 /// A set of values that the search has simulated, with its estimated rates and criterion.
 struct TriedPoint {
   Values values;
-  Estimate estimate;  ///< Estimate from the largest number of machines that ran with these values.
+  RateEstimate estimate;  ///< Estimate from the largest number of machines that ran with these values.
 };
 
 /// Frontier between success and speed: the tried points that no other point beats in both rate and criterion,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_counts.hpp"
 #include "experiments/study/goal.hpp"
 
 namespace zerocount::tuning {
@@ -30,17 +30,6 @@ inline constexpr int max_attempts = 3;
 /// @param attempt number of the attempt, from 1
 std::size_t correction_of(int attempt);
 
-/// Proportion that the goal judges, with its confidence bounds: of machines if the goal asks for machines,
-/// else of moves.
-inline const goal::BoundedProportion& judged_rate(const study::Goal& goal,
-                                                  const goal::WorldVerdict& verdict) {
-  return goal.machines ? verdict.machines : verdict.moves;
-}
-/// Proportion that the goal asks for: of machines if it asks for machines, else of moves.
-inline double asked_rate(const study::Goal& goal) {
-  return goal.machines.value_or(goal.moves);
-}
-
 /// [goal] Counts of the moves that each goal judges, and of those that meet it.
 using GoalCounts = std::vector<measures::CellCounts>;
 
@@ -54,7 +43,7 @@ struct AttemptResult {
 struct ProofProblem {
   /// [finalist] Whether the finalist may meet all goals, judged by the search. The best finalist comes first.
   std::vector<bool> may_meet;
-  /// [finalist] Estimate::margin, how far the worst rate is above the wanted one. A larger margin makes
+  /// [finalist] RateEstimate::margin, how far the worst rate is above the wanted one. A larger margin makes
   /// success more certain.
   std::vector<double> margins;
   /// Returns the number of machines expected to decide the goals, from the finalist's results in the search.

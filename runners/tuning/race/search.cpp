@@ -48,13 +48,13 @@ SearchSize size_at(const SearchScope& scope, int step) {
 
 constexpr double error_of_dropping = 0.01;
 
-/// Indices of the candidates, sorted by decreasing Estimate::margin over the first `machines` machines of
+/// Indices of the candidates, sorted by decreasing RateEstimate::margin over the first `machines` machines of
 /// each.
 std::vector<std::size_t> by_margin(const Aim& aim, const std::vector<Candidate>& candidates,
                                    std::int64_t machines) {
   std::vector<std::size_t> order(candidates.size());
   std::vector<double> margins;
-  for (const Estimate& one : estimates_of(aim, candidates, machines)) {
+  for (const RateEstimate& one : estimates_of(aim, candidates, machines)) {
     order[margins.size()] = margins.size();
     margins.push_back(one.margin);
   }
@@ -108,7 +108,7 @@ class Search {
       tell();
       result_.converged = without >= patience;
       if (!goes_on() || (result_.converged && !settings_.begins_anew)) break;
-      const Estimate before = best_estimate();
+      const RateEstimate before = best_estimate();
       const std::int64_t spent = result_.trials;
       const bool has_direction = before.rate > 0.0;
       const bool fills = !has_direction || without % (patience + 1) == patience;
@@ -325,7 +325,7 @@ class Search {
     if (candidates.size() <= elites) return;
     std::vector<double> margins;
     margins.reserve(candidates.size());
-    for (const Estimate& one : estimates_of(problem_.aim, candidates, most_machines_))
+    for (const RateEstimate& one : estimates_of(problem_.aim, candidates, most_machines_))
       margins.push_back(one.margin);
     const std::ptrdiff_t reliable = std::ranges::max_element(margins) - margins.begin();
     if (reliable >= problem_.size.elites)
@@ -379,12 +379,12 @@ class Search {
   }
 
   void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t machines) {
-    std::vector<std::pair<Estimate, std::size_t>> order;
+    std::vector<std::pair<RateEstimate, std::size_t>> order;
     order.reserve(candidates.size());
-    std::vector<Estimate> estimates = estimates_of(problem_.aim, candidates, machines);
+    std::vector<RateEstimate> estimates = estimates_of(problem_.aim, candidates, machines);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       order.emplace_back(std::move(estimates[i]), i);
-      Estimate& latest = estimates_[candidates[i].values];
+      RateEstimate& latest = estimates_[candidates[i].values];
       if (order.back().first.machines >= latest.machines) latest = order.back().first;
     }
     std::ranges::stable_sort(
@@ -409,11 +409,11 @@ class Search {
     }
   }
 
-  Estimate best_estimate() const {
+  RateEstimate best_estimate() const {
     return estimate_of(problem_.aim, population_.front().machines, most_machines_);
   }
 
-  bool improves(const Estimate& before, const Estimate& now) const {
+  bool improves(const RateEstimate& before, const RateEstimate& now) const {
     if (before.missing != now.missing) return now.missing < before.missing;
     if (seems_to_meet(before)) return now.criterion < before.criterion * (1.0 - min_improvement);
     if (before.worst != now.worst) return now.margin > before.margin;
@@ -485,7 +485,7 @@ class Search {
   trials::Effort effort_;       ///< Effort that the current race may spend.
   std::int64_t most_machines_;  ///< Maximum number of machines per candidate in the current race.
   std::set<Values> tried_;
-  std::map<Values, Estimate> estimates_;  ///< Latest estimate of each simulated set of values.
+  std::map<Values, RateEstimate> estimates_;  ///< Latest estimate of each simulated set of values.
   std::vector<Candidate> population_;     ///< Candidates that survived the last race, the best first.
   /// Best of the given starting values, kept so that few machines do not drop it by chance.
   std::optional<Candidate> best_start_;

@@ -107,7 +107,7 @@ struct SearchProgress {
   std::int64_t points{0};
   std::int64_t trials{0};
   const Candidate* best{nullptr};
-  Estimate estimate{};
+  RateEstimate estimate{};
 };
 
 struct SearchSettings {
@@ -124,7 +124,7 @@ struct SearchResult {
   /// The best candidates of the search, the best first; empty if no candidate is admissible.
   std::vector<Candidate> finalists;
   /// [finalist] Success rates and criterion, estimated from all machines that the finalist ran.
-  std::vector<Estimate> estimates;
+  std::vector<RateEstimate> estimates;
   std::vector<TriedPoint> tried;  ///< All simulated sets of values, with their estimates.
   std::int64_t points{0};         ///< Number of simulated candidates (sets of values).
   std::int64_t trials{0};

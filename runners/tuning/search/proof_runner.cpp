@@ -34,11 +34,11 @@ constexpr std::int64_t usual_machines = 500;  // at least, where the effort is e
 /// @param points number of points among which a choice is made, for which the bounds allow
 std::int64_t min_machines_of(const study::Study& study, std::size_t goal, std::int64_t each,
                              std::size_t points) {
-  const measures::CountedGoal counted = measures::asked_of_moves(study)[goal];
+  const measures::MoveCriterion criterion = measures::move_criteria_of(study)[goal];
   const bool on_machines = study.machines > 0;
   std::int64_t fewest = 0;
   for (const goal::Needs& one :
-       goal::smallest_studies(study.goals[goal], on_machines, measures::asked_moves(counted, study.moves),
+       goal::smallest_studies(study.goals[goal], on_machines, measures::asked_moves(criterion, study.moves),
                               points, study.worlds)) {
     if (!on_machines) fewest = std::max(fewest, one.trials);
     if (on_machines && one.trials <= each * one.machines && (fewest == 0 || one.machines < fewest))

@@ -19,7 +19,7 @@ GoalCounts counts_of(const study::Study& study, const trials::Replicates& machin
 struct Judged {
   GoalCounts counts;
   goal::Verdict verdict;
-  /// Estimate::criterion, the quantity that the tuning minimises; infinity for "never".
+  /// RateEstimate::criterion, the quantity that the tuning minimises; infinity for "never".
   double criterion{0.0};
 };
 

@@ -8,7 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
+#include "analysis/measures/move_event.hpp"
 #include "core/failure/failure.hpp"
 #include "core/random/random_numbers.hpp"
 #include "experiments/designs/designs.hpp"
@@ -52,7 +53,7 @@ double lateness(const ClaimResult& machine, double late) {
 class MachineFailures {
  public:
   MachineFailures(const study::Study& study, std::int64_t point)
-      : event_(measures::missed_question(study)), late_(late_time(study, point)) {}
+      : event_(measures::missed_criteria(study)), late_(late_time(study, point)) {}
 
   /// Adds the moves of these trials to `result`: the judged moves, the moves that meet the goals, and the
   /// score of each judged move. A score that does not exist counts as the largest double.
@@ -390,7 +391,7 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
   WorstMachine machine{
       static_cast<std::int64_t>(number), 0, met_proportion(result), {}, place_of_claim(study, claim)};
   const std::int64_t asked =
-      measures::asked_moves(measures::asked_of_moves(study)[machine.claim.goal], study.moves);
+      measures::asked_moves(measures::move_criteria_of(study)[machine.claim.goal], study.moves);
   const std::int64_t trial_in_setting =
       (std::ranges::max_element(result.values) - result.values.begin()) / asked;
   machine.trial = trials::trial_of_replicate(

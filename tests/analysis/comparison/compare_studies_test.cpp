@@ -292,8 +292,9 @@ TEST_F(ComparedStudies, AnOpenComparisonNamesTheMaxTrialsThatWouldDecide) {
 
 TEST_F(ComparedStudies, ADriftingBaselineDoesNotCarryARequirementAway) {
   comparison::GateRules rules;
-  rules.requirements = {
-      {"success_rate ≥ 0.995", comparison::find_requirable("success_rate").value(), true, 0.995}};
+  rules.requirements = {{.text = "success_rate ≥ 0.995",
+                         .quantity = comparison::find_requirable("success_rate").value(),
+                         .limit = {text::Relation::at_least, 0.995}}};
   const auto a = write("a.h5", study_of(), good_trials());
   const comparison::StudyComparison result = comparison::compare_studies(a, a, rules);
   EXPECT_TRUE(result.equal_to_the_bit);

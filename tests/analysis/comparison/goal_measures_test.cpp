@@ -55,8 +55,9 @@ PointTrials settled_trials(const Machines& machines, unsigned draws, unsigned ag
   comparison::AlsoRead also;
   also.machines = machines.machines;
   const std::optional<double> asked = machines.machines > 0 ? std::optional(0.9) : std::nullopt;
-  also.judged = {
-      {{.band = 0, .within = 0.03, .moves = 0.9, .machines = asked}, {0, 0.03}, machines.machines}};
+  also.judged = {{{.band = 0, .within = 0.03, .moves = 0.9, .machines = asked},
+                  {.settling = measures::Settling::in_band, .within = 0.03},
+                  machines.machines}};
   return comparison::gather_trials(outcomes, machines.moves, also);
 }
 

@@ -65,7 +65,7 @@ TEST(ComparisonOverMachines, RequirementsHaveBoundsOverMachines) {
   std::mt19937_64 random(7);
   PointTrials trials = trials_on_machines(40, 4000, random);
   const RequirableQuantity success = find_requirable("success_rate").value();
-  const Requirement requirement{.text = "", .quantity = success, .at_least = true, .limit = 0.6};
+  const Requirement requirement{.text = "", .quantity = success, .limit = {text::Relation::at_least, 0.6}};
   const Judgement over_machines = judge_requirement(requirement, trials, 0.95, 0.95);
   trials.machines = 0;
   const Judgement plain = judge_requirement(requirement, trials, 0.95, 0.95);

@@ -52,8 +52,8 @@ points:
   EXPECT_EQ(judged, (std::vector<std::string>{"success_rate", "arrival_time"}));
   ASSERT_EQ(comparison::requirements_of(rules, "a").size(), 1u);
   ASSERT_EQ(comparison::requirements_of(rules, "b-with-kp").size(), 3u);
-  EXPECT_EQ(comparison::requirements_of(rules, "b-with-kp")[2].limit, 0.2);
-  EXPECT_FALSE(comparison::requirements_of(rules, "b-with-kp")[2].at_least);
+  EXPECT_EQ(comparison::requirements_of(rules, "b-with-kp")[2].limit.value, 0.2);
+  EXPECT_EQ(comparison::requirements_of(rules, "b-with-kp")[2].limit.relation, text::Relation::at_most);
 }
 
 TEST(MarginsFile, FailOnChangedMakesEveryChangeFail) {
@@ -118,10 +118,10 @@ TEST(MarginsFile, RequirementsMayHaveAnyBlanks) {
     const comparison::GateRules rules = read("require: " + text + "\n");
     ASSERT_EQ(rules.requirements.size(), 1u) << text;
     EXPECT_EQ(rules.requirements[0].quantity.name, "success_rate");
-    EXPECT_TRUE(rules.requirements[0].at_least);
-    EXPECT_EQ(rules.requirements[0].limit, 0.5);
+    EXPECT_EQ(rules.requirements[0].limit.relation, text::Relation::at_least);
+    EXPECT_EQ(rules.requirements[0].limit.value, 0.5);
   }
-  EXPECT_FALSE(read("require: arrival_time.p95<=0.1\n").requirements[0].at_least);
+  EXPECT_EQ(read("require: arrival_time.p95<=0.1\n").requirements[0].limit.relation, text::Relation::at_most);
 }
 
 TEST(MarginsFile, RequirementsMayNameErrorBandsAndTheGoal) {

@@ -14,7 +14,8 @@
 namespace zerocount::goal {
 namespace {
 
-constexpr measures::CountedGoal within_50_ms{.slot = 1, .within = 0.05};
+constexpr measures::MoveCriterion within_50_ms{
+    .settling = measures::Settling::in_band, .slot = 1, .within = 0.05};
 
 trial::MoveOutcome move_settled_at(double time) {
   trial::MoveOutcome move;
@@ -38,7 +39,8 @@ TEST(Goal, IsMetByAMoveThatSettlesInTheBandInTime) {
   EXPECT_FALSE(measures::meets(within_50_ms, move_settled_at(0.0505)));
   // Sample 71 at 2 kHz is at 0.0355 s; the product is rounded up.
   ASSERT_GT(71 * 5e-4, 0.0355);
-  EXPECT_TRUE(measures::meets({.slot = 1, .within = 0.0355}, move_settled_at(71 * 5e-4)));
+  EXPECT_TRUE(measures::meets({.settling = measures::Settling::in_band, .slot = 1, .within = 0.0355},
+                              move_settled_at(71 * 5e-4)));
   EXPECT_FALSE(measures::meets(within_50_ms, {}));  // NaN: it ended outside, or was lost
 }
 

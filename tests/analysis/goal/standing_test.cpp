@@ -23,7 +23,7 @@ double log_odds(double p) {
 std::vector<double> places_of(const ClaimVerdict& claim, const study::Goal& goal) {
   const double status = claim.status == Status::missed ? 0.0 : claim.status == Status::undecided ? 1.0 : 2.0;
   const BoundedProportion& claimed = goal.machines ? claim.machines : claim.moves;
-  const double wanted = goal.machines.value_or(goal.moves);
+  const double wanted = study::demanded_proportion(goal);
   return {status, log_odds(claimed.low) - log_odds(wanted), log_odds(claimed.value) - log_odds(wanted),
           log_odds(claim.moves.low) - log_odds(goal.moves),
           log_odds(claim.moves.value) - log_odds(goal.moves)};
@@ -117,7 +117,7 @@ measures::PointSummary point_with(std::int64_t met, double part_of_time) {
 
 Question question_of_goal() {
   Question question;
-  question.parts.front().claim = study::Goal{.within = 0.05, .moves = 0.95};
+  question.parts.front().goal = study::Goal{.within = 0.05, .moves = 0.95};
   return question;
 }
 
@@ -131,7 +131,7 @@ TEST(Standing, ObservedProportionsRankPointsBeforeTimes) {
   for (std::int64_t met = 50; met < 100; ++met)
     EXPECT_TRUE(is_better(point_with(met + 1, 0.9), point_with(met, 0.1))) << met;
   EXPECT_TRUE(is_better(point_with(100, 0.2), point_with(100, 0.3)));
-  question.parts.front().claim->machines = 0.9;
+  question.parts.front().goal->machines = 0.9;
   EXPECT_TRUE(is_better(point_with(60, 0.9), point_with(50, 0.1))) << "of machines none meets it in either";
 }
 

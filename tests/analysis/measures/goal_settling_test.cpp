@@ -1,4 +1,6 @@
 // The settling times of the moves that a goal asks, under each condition.
+#include "analysis/measures/goal_settling.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
 #include "analysis/statistics/sums/state.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/each_seed.hpp"
@@ -20,7 +22,7 @@ struct GoalSettlingTimes {
   static constexpr unsigned seeds = 100;
 
   explicit GoalSettlingTimes(unsigned seed) : draws(seed) {
-    goal.slot = 0;
+    goal.settling = Settling::in_band;
     for (std::int64_t move = 0; move < moves; ++move)
       if (draws.chance(0.5)) goal.on.push_back(move);
     if (goal.on.empty()) goal.on.push_back(0);
@@ -73,7 +75,7 @@ struct GoalSettlingTimes {
   std::int64_t machines{draws.chance(0.5) ? 0 : draws.integer(2, 6)};
   std::int64_t trials{std::max<std::int64_t>(machines, 1) * conditions * draws.integer(4, 20)};
   std::int64_t moves{draws.integer(1, 4)};
-  CountedGoal goal;
+  MoveCriterion goal;
   std::vector<std::vector<trial::MoveOutcome>> of_trials;
 };
 
@@ -143,7 +145,7 @@ TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnTheDivisionOfTheTrials) {
 }
 
 TEST(GoalSettling, CollectsNothingIfTheBandIsMeasuredForAllMoves) {
-  EXPECT_TRUE(GoalSettling(CountedGoal{.slot = 0}, Shape{}).statistics(0.95).empty());
+  EXPECT_TRUE(GoalSettling(MoveCriterion{.settling = Settling::in_band}, Shape{}).statistics(0.95).empty());
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_criterion.hpp"
+#include "analysis/measures/move_event.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/trial.hpp"
@@ -67,7 +68,7 @@ std::vector<std::string> lacking_measures() {
 
 bool meets_limit(const std::string& measure, const trial::MoveOutcome& move) {
   const study::Study study = study_with_limit(measure);
-  return meets(counted_goals(study).front(), move);
+  return meets(criteria_of_goals(study).front(), move);
 }
 
 TEST(MissingValues, MeetALimitOnlyIfThereIsNothingToMeasure) {
@@ -137,8 +138,8 @@ TEST(MissingValues, ALimitOnOscillationIsMetByMovesThatDoNotOscillate) {
   for (std::int64_t index = 0; index < without.trials; ++index) {
     for (const trial::MoveOutcome& move :
          trial::run_trial(study::study_trial(limited, 0, index).parameters).moves) {
-      const bool settled = meets(counted_goals(without).front(), move);
-      EXPECT_EQ(meets(counted_goals(limited).front(), move), settled) << index;
+      const bool settled = meets(criteria_of_goals(without).front(), move);
+      EXPECT_EQ(meets(criteria_of_goals(limited).front(), move), settled) << index;
       met += settled;
     }
   }

@@ -1,8 +1,9 @@
+#include "analysis/measures/move_event.hpp"
+
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "analysis/measures/goal_counts.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 
@@ -33,7 +34,7 @@ trial::MoveOutcome move_with(double arrival_time) {
 }
 
 TEST(MoveEvent, AGoalIsMissedAfterItsTimeOrNeverReached) {
-  const MoveEvent event = missed_question(study_with_goal());
+  const MoveEvent event = missed_criteria(study_with_goal());
   EXPECT_FALSE(happens(event, move_with(0.0999)));
   EXPECT_FALSE(happens(event, move_with(0.1)));
   EXPECT_TRUE(happens(event, move_with(0.1001)));
@@ -62,8 +63,8 @@ TEST(MoveEvent, TheScoreGrowsTowardsTheEvent) {
   };
   EXPECT_LT(score("arrival_time > 0.2", 0.1), score("arrival_time > 0.2", 0.15));
   EXPECT_GT(score("arrival_time < 0.2", 0.25), score("arrival_time < 0.2", 0.3));
-  EXPECT_LT(score_of(MoveScore::event, missed_question(study), move_with(0.05)),
-            score_of(MoveScore::event, missed_question(study), move_with(0.09)));
+  EXPECT_LT(score_of(MoveScore::event, missed_criteria(study), move_with(0.05)),
+            score_of(MoveScore::event, missed_criteria(study), move_with(0.09)));
 }
 
 TEST(MoveEvent, WrongTextsAreRefusedWithTheReason) {

@@ -114,6 +114,12 @@ TEST(ShellPath, IsNeverTakenForAnOption) {
   EXPECT_EQ(shell_path("a b/-o.yaml"), "'a b/-o.yaml'");
 }
 
+TEST(Trimmed, LosesBlanksAtBothEndsOnly) {
+  EXPECT_EQ(trimmed(" \t a b\r\n"), "a b");
+  EXPECT_EQ(trimmed(" \n "), "");
+  EXPECT_EQ(trimmed(" \"a\" ", " \""), "a");
+}
+
 }  // namespace
 }  // namespace zerocount::text
 

@@ -1,3 +1,5 @@
+#include <deque>
+
 #include "core/theory/gains.hpp"
 #include "core/theory/stability.hpp"
 #include "tests/core/theory/frozen_loops.hpp"

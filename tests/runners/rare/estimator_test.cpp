@@ -79,7 +79,7 @@ Repetitions repeated(std::uint64_t seeds, const TrialSpace& space, const Score& 
   Repetitions all;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     EstimatorState state;
-    const Estimate answer = estimate(state, {.space = space, .seed = seed}, simulation_of(score),
+    const ProbabilityEstimate answer = estimate(state, {.space = space, .seed = seed}, simulation_of(score),
                                      [budget](const EstimatorState& now) { return now.trials < budget; });
     EXPECT_EQ(answer.status, EstimateStatus::estimated) << seed;
     EXPECT_LE(answer.bounds.high, 2.0 * answer.bounds.low) << seed;
@@ -119,7 +119,7 @@ TEST(RareEstimator, ChoosesTheScoreThatLeadsToFailures) {
     for (Trial& trial : trials) trial.scores = {trial.z[0] > 0.0 ? 1.0 : 0.0, trial.scores[0]};
   };
   EstimatorState state;
-  const Estimate answer =
+  const ProbabilityEstimate answer =
       estimate(state, {.space = trial_space(one.coordinates, {}), .scores = 2, .seed = 3}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_TRUE(answer.bounds.low <= 1e-6 && 1e-6 <= answer.bounds.high);
@@ -229,7 +229,7 @@ TEST(RareEstimator, RowsOfATableKeepTheirProbability) {
 
 TEST(RareEstimator, AFailureThatAlwaysHappensHasProbabilityOne) {
   EstimatorState state;
-  const Estimate answer = estimate(state, {.space = trial_space(2, {}), .seed = 1},
+  const ProbabilityEstimate answer = estimate(state, {.space = trial_space(2, {}), .seed = 1},
                                    simulation_of([](const auto&) { return 1.0; }), goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_GT(answer.bounds.low, 0.5);
@@ -246,7 +246,7 @@ TEST(RareEstimator, ACommonFailureIsEstimatedByPlainTrials) {
     }
   };
   EstimatorState state;
-  const Estimate answer = estimate(state, {.space = trial_space(4, {}), .seed = 1}, simulate, goes_on);
+  const ProbabilityEstimate answer = estimate(state, {.space = trial_space(4, {}), .seed = 1}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_TRUE(answer.bounds.low <= 0.002 && 0.002 <= answer.bounds.high);
   EXPECT_TRUE(state.proposal.components.empty());
@@ -266,7 +266,7 @@ TEST(RareEstimator, LearnsAgainAfterUnexpectedFailures) {
     for (std::size_t i = 0; i < 4; ++i) factor[5 * i] = i == 1 ? 0.6 : 1.0;
     state.proposal = {.natural = 0.1, .components = {normal_component(1.0, {0.0, 2.0, 0.0, 0.0}, factor)}};
     state.cap = 1.0;
-    const Estimate answer = estimate(state, settings_of(one, seed), simulation_of(one.score), goes_on);
+    const ProbabilityEstimate answer = estimate(state, settings_of(one, seed), simulation_of(one.score), goes_on);
     EXPECT_LE(answer.bounds.low, probability) << seed;
     if (state.learnings == 1) continue;
     ++learned_again;
@@ -281,10 +281,10 @@ TEST(RareEstimator, LearnsAgainAfterUnexpectedFailures) {
 TEST(RareEstimator, ABudgetThatEndsTheSearchLeavesItUndecided) {
   const ClosedForm one = plane(1e-6);
   EstimatorState state;
-  const Estimate answer = estimate(state, settings_of(one, 1), simulation_of(one.score),
+  const ProbabilityEstimate answer = estimate(state, settings_of(one, 1), simulation_of(one.score),
                                    [](const EstimatorState& now) { return now.trials < 4000; });
   EXPECT_EQ(answer.status, EstimateStatus::budget);
-  const Estimate whole = estimate(state, settings_of(one, 1), simulation_of(one.score), goes_on);
+  const ProbabilityEstimate whole = estimate(state, settings_of(one, 1), simulation_of(one.score), goes_on);
   EXPECT_EQ(whole.status, EstimateStatus::estimated);
   EXPECT_TRUE(whole.bounds.low <= 1e-6 && 1e-6 <= whole.bounds.high);
 }
@@ -296,7 +296,7 @@ TEST(RareEstimator, IsUndecidedIfNoScoreLeadsToAFailure) {
     for (Trial& trial : trials) trial.scores = {0.0};
   };
   EstimatorState state;
-  const Estimate answer = estimate(state, {.space = trial_space(3, {}), .seed = 1}, simulate, goes_on);
+  const ProbabilityEstimate answer = estimate(state, {.space = trial_space(3, {}), .seed = 1}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::no_failure);
   EXPECT_EQ(answer.bounds.low, 0.0);
   EXPECT_GE(state.plain_trials, 290'000);
@@ -307,14 +307,14 @@ TEST(RareEstimator, AnInterruptedEstimateEndsWithTheSameResult) {
   const ClosedForm one = circle(1e-5);
   const EstimatorSettings settings{.space = trial_space(one.coordinates, {}), .ratio = 1.3, .seed = 5};
   EstimatorState whole;
-  const Estimate expected = estimate(whole, settings, simulation_of(one.score), goes_on);
+  const ProbabilityEstimate expected = estimate(whole, settings, simulation_of(one.score), goes_on);
   EstimatorState state;
   int asked_learned = 0;
-  const Estimate part = estimate(state, settings, simulation_of(one.score), [&](const EstimatorState& now) {
+  const ProbabilityEstimate part = estimate(state, settings, simulation_of(one.score), [&](const EstimatorState& now) {
     return !now.learned || ++asked_learned < 3;
   });
   EXPECT_EQ(part.status, EstimateStatus::budget);
-  const Estimate answer = estimate(state, settings, simulation_of(one.score), goes_on);
+  const ProbabilityEstimate answer = estimate(state, settings, simulation_of(one.score), goes_on);
   EXPECT_EQ(answer.bounds.low, expected.bounds.low);
   EXPECT_EQ(answer.probability, expected.probability);
   EXPECT_EQ(state.trials, whole.trials);

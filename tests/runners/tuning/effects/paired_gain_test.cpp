@@ -53,7 +53,7 @@ TEST(PairedGain, CountsMachinesRatherThanTheirMoves) {
 
 // Of a claim about machines those count that meet it in as many of their moves as it asks.
 TEST(PairedGain, ForMachinesEqualsMcNemarsTest) {
-  const Claim claim{.moves = 0.5, .machines = 0.9};
+  const study::Goal claim{.moves = 0.5, .machines = 0.9};
   const PairedGain gain = paired_gain(claim, 0, machines({1, 1, 4, 9}, 10), machines({4, 5, 5, 4}, 10), 1);
   EXPECT_EQ(gain.gained, 2);
   EXPECT_EQ(gain.lost, 1);

@@ -34,7 +34,7 @@ ProvenSearch searched_and_proven(const MadeUpProblem& truth) {
   const SearchProblem searched = truth.problem(256);
   ProvenSearch both{search(searched, {.seed = truth.seed, .generations = 4}), {}};
   ProofProblem problem;
-  for (const Estimate& one : both.found.estimates) {
+  for (const RateEstimate& one : both.found.estimates) {
     problem.may_meet.push_back(may_meet(searched.aim, one));
     problem.margins.push_back(one.margin);
   }
@@ -168,7 +168,7 @@ Candidate candidate_of(const std::vector<ClaimResult>& results) {
 }
 
 /// The aim of a search: one claim, and the quantile of the settling time to be minimised.
-Aim aim_with(const Claim& claim, double quantile = 0.95) {
+Aim aim_with(const study::Goal& claim, double quantile = 0.95) {
   return {.claims = {claim}, .quantile = quantile};
 }
 
@@ -213,9 +213,9 @@ TEST(Candidate, OneThatMeetsTheGoalIsBetterThanAFasterOne) {
     for (int i = 0; i < 1000; ++i) machines.push_back({1, i < met ? 1 : 0, {time}});
     return estimate_of(aim, candidate_of(machines).machines, 1000);
   };
-  const Estimate fast = estimate(850, 0.01);
-  const Estimate good = estimate(950, 0.05);
-  const Estimate better = estimate(930, 0.04);
+  const RateEstimate fast = estimate(850, 0.01);
+  const RateEstimate good = estimate(950, 0.05);
+  const RateEstimate better = estimate(930, 0.04);
   EXPECT_TRUE(is_better(aim, good, fast));
   EXPECT_TRUE(is_better(aim, better, good));
   EXPECT_FALSE(is_better(aim, good, better));
@@ -241,7 +241,7 @@ const Aim two_goals{.claims = {{.moves = 0.9}, {.moves = 0.9}, {.moves = 0.6}, {
 
 TEST(Candidate, TheWorstOfSeveralClaimsDecides) {
   const Candidate lacking = candidate_with({{0.99, 0.1}, {0.95, 0.2}, {0.99, 0.3}, {0.62, 0.4}});
-  const Estimate estimate = estimate_of(two_goals, lacking.machines, 400);
+  const RateEstimate estimate = estimate_of(two_goals, lacking.machines, 400);
   EXPECT_EQ(estimate.worst, 3U) << "62 % of 60 % is nearer to the goal than 95 % of 90 %";
   EXPECT_DOUBLE_EQ(estimate.rate, 0.62);
   EXPECT_DOUBLE_EQ(estimate.criterion, 0.4) << "the largest of all claims";
@@ -254,10 +254,10 @@ TEST(Candidate, RanksByGoalsMetThenByTheWorstClaim) {
   const auto estimate = [](const std::vector<MadeUpClaim>& claims) {
     return estimate_of(two_goals, candidate_with(claims).machines, 400);
   };
-  const Estimate none = estimate({{0.89, 0.1}, {0.89, 0.1}, {0.59, 0.1}, {0.59, 0.1}});
-  const Estimate one = estimate({{0.99, 0.1}, {0.99, 0.1}, {0.3, 0.1}, {0.9, 0.1}});
-  const Estimate one_nearer = estimate({{0.99, 0.9}, {0.99, 0.9}, {0.5, 0.9}, {0.5, 0.9}});
-  const Estimate all = estimate({{0.99, 0.9}, {0.99, 0.9}, {0.9, 0.9}, {0.9, 0.9}});
+  const RateEstimate none = estimate({{0.89, 0.1}, {0.89, 0.1}, {0.59, 0.1}, {0.59, 0.1}});
+  const RateEstimate one = estimate({{0.99, 0.1}, {0.99, 0.1}, {0.3, 0.1}, {0.9, 0.1}});
+  const RateEstimate one_nearer = estimate({{0.99, 0.9}, {0.99, 0.9}, {0.5, 0.9}, {0.5, 0.9}});
+  const RateEstimate all = estimate({{0.99, 0.9}, {0.99, 0.9}, {0.9, 0.9}, {0.9, 0.9}});
   EXPECT_TRUE(is_better(two_goals, one, none));
   EXPECT_TRUE(is_better(two_goals, one_nearer, one));
   EXPECT_TRUE(is_better(two_goals, all, one_nearer));

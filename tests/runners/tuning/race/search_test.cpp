@@ -129,7 +129,7 @@ TEST(Search, DISABLED_KeepsTheBestThatItHasSeen) {
     SearchProblem problem = truth.problem(512);
     problem.size = {
         .first_candidates = 30, .candidates = 12, .elites = 3, .first_machines = 8, .max_machines = 512};
-    std::optional<Estimate> before;
+    std::optional<RateEstimate> before;
     SearchSettings settings{.seed = seed, .begins_anew = true, .effort = effort_of(50'000)};
     settings.tell = [&](const SearchProgress& progress) {
       if (before) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/document/answer.hpp"
+#include "analysis/basis/document/answer.hpp"
 #include "analysis/report/figures/figure.hpp"
 
 namespace zerocount::report {

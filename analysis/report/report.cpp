@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/document/blocks.hpp"
+#include "analysis/basis/document/blocks.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/report_sections.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/comparison/comparison.hpp"
-#include "analysis/history/series.hpp"
+#include "analysis/pairs/comparison/comparison.hpp"
+#include "analysis/pairs/history/series.hpp"
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/report/first_screen/first_screen.hpp"
 #include "analysis/report/page.hpp"

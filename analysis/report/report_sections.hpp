@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/document/answer.hpp"
-#include "analysis/history/series.hpp"
+#include "analysis/basis/document/answer.hpp"
+#include "analysis/pairs/history/series.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/report/reported_study.hpp"
 

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/document/blocks.hpp"
+#include "analysis/basis/document/blocks.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/report_sections.hpp"
-#include "analysis/summary_answer/parts.hpp"
-#include "analysis/summary_answer/summary_answer.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/trials/summary_answer/parts.hpp"
+#include "analysis/trials/summary_answer/summary_answer.hpp"
 #include "core/text/text.hpp"
 
 namespace zerocount::report {

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/question.hpp"
-#include "analysis/summary/cells_of_point.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/summary/cells_of_point.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/goal/question.hpp"
-#include "analysis/measures/trial_value.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/summary/summary.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/measures/trial_value.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
+#include "analysis/trials/summary/summary.hpp"
 #include "experiments/study/goal.hpp"
 #include "experiments/study/grouping.hpp"
 #include "experiments/study/study.hpp"

@@ -5,15 +5,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/document/blocks.hpp"
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/question.hpp"
+#include "analysis/basis/document/blocks.hpp"
+#include "analysis/basis/statistics/clusters/tolerance.hpp"
+#include "analysis/basis/statistics/sample_size.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/report_sections.hpp"
-#include "analysis/statistics/clusters/tolerance.hpp"
-#include "analysis/statistics/sample_size.hpp"
-#include "analysis/summary/cells_of_point.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/summary/cells_of_point.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
 
 namespace zerocount::report {
 namespace {

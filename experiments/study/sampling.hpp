@@ -20,7 +20,7 @@ enum class Engine {
 /// are narrow enough at every point. The bounds are a confidence sequence, which allows repeated tests.
 struct StoppingRule {
   /// Largest half-width of the success rate's bounds at which the study ends (see
-  /// analysis/statistics/mean_bounds.hpp).
+  /// analysis/basis/statistics/mean_bounds.hpp).
   double success_rate_halfwidth{0.1};
   double confidence{0.95};     ///< confidence level of the bounds of one design point
   std::int64_t block{1};       ///< number of trials per design point between two tests of the rule

@@ -54,7 +54,7 @@ enum class MoveReduction {
 };
 
 /// A statistic of the values of a measure at a design point, in the order of every report. A quality is a
-/// measure that is true or false. Names and meanings: statistic_kinds() of analysis/measures.
+/// measure that is true or false. Names and meanings: statistic_kinds() of analysis/trials/measures.
 enum class Statistic {
   count,  ///< Number of trials that have the quality.
   rate,

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "analysis/document/blocks.hpp"
+#include "analysis/basis/document/blocks.hpp"
+#include "analysis/basis/text/report_json.hpp"
 #include "analysis/report/page.hpp"
-#include "analysis/text/report_json.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/terminal/terminal.hpp"
 

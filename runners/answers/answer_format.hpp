@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "analysis/document/answer.hpp"
+#include "analysis/basis/document/answer.hpp"
 #include "runners/command_line/command_line.hpp"
 
 /// Output formats of the commands' answers.

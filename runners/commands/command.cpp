@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "analysis/report/report.hpp"
-#include "analysis/summary/chosen_summary.hpp"
-#include "analysis/theory/plausibility.hpp"
+#include "analysis/trials/summary/chosen_summary.hpp"
+#include "analysis/trials/theory/plausibility.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/sections/named_tables.hpp"

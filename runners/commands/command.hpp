@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/document/answer.hpp"
-#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/basis/document/answer.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/report/report.hpp"
+#include "analysis/trials/goal/goal_verdict.hpp"
 #include "core/failure/failure.hpp"
 #include "core/plugin/controller_plugin.hpp"
 #include "experiments/study/study.hpp"

@@ -7,8 +7,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "analysis/document/answer.hpp"
-#include "analysis/document/blocks.hpp"
+#include "analysis/basis/document/answer.hpp"
+#include "analysis/basis/document/blocks.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/report/page.hpp"
 #include "experiments/yaml/text_file.hpp"

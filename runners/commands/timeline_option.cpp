@@ -1,6 +1,6 @@
 #include "runners/commands/timeline_option.hpp"
 
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/storage/durable_file.hpp"

@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/clusters/machine_statistics.hpp"
-#include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/sample_size.hpp"
-#include "analysis/summary/summary.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/basis/statistics/clusters/machine_statistics.hpp"
+#include "analysis/basis/statistics/proportion.hpp"
+#include "analysis/basis/statistics/sample_size.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/trials/summary/summary.hpp"
 #include "experiments/study/setting_study.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/command_line/command_line.hpp"

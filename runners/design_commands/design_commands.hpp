@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/document/answer.hpp"
-#include "analysis/goal/question.hpp"
+#include "analysis/basis/document/answer.hpp"
+#include "analysis/trials/goal/question.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/study.hpp"

@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/comparison/comparison.hpp"
-#include "analysis/comparison/forecast.hpp"
-#include "analysis/comparison/gate_rules.hpp"
-#include "analysis/comparison/point_judgements.hpp"
-#include "analysis/comparison/point_trials.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/pairs/comparison/comparison.hpp"
+#include "analysis/pairs/comparison/forecast.hpp"
+#include "analysis/pairs/comparison/gate_rules.hpp"
+#include "analysis/pairs/comparison/point_judgements.hpp"
+#include "analysis/pairs/comparison/point_trials.hpp"
 #include "core/text/text.hpp"
 #include "core/trial/move_measures.hpp"
 #include "experiments/study/setting_study.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/question.hpp"
+#include "analysis/trials/goal/question.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/goal_verdict.hpp"
-#include "analysis/goal/question.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/summary/chosen_summary.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/goal/goal_verdict.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
+#include "analysis/trials/summary/chosen_summary.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/forecast/forecast.hpp"

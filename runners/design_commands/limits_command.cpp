@@ -9,13 +9,13 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/question_text.hpp"
+#include "analysis/basis/statistics/distributions.hpp"
+#include "analysis/basis/statistics/proportion.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/proportion.hpp"
-#include "analysis/text/text.hpp"
-#include "analysis/theory/point_theory.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/goal/question_text.hpp"
+#include "analysis/trials/theory/point_theory.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/question.hpp"
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/trials/goal/question.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/setting_study.hpp"
 #include "results/storage/durable_file.hpp"

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/question.hpp"
-#include "analysis/goal/question_text.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/goal/question_text.hpp"
 #include "core/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "runners/answers/answer_format.hpp"

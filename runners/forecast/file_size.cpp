@@ -5,10 +5,10 @@
 #include <iterator>
 #include <string>
 
-#include "analysis/measures/point_columns.hpp"
-#include "analysis/measures/point_statistics.hpp"
-#include "analysis/statistics/proportion.hpp"
-#include "analysis/summary/study_statistics.hpp"
+#include "analysis/basis/statistics/proportion.hpp"
+#include "analysis/trials/measures/point_columns.hpp"
+#include "analysis/trials/measures/point_statistics.hpp"
+#include "analysis/trials/summary/study_statistics.hpp"
 #include "core/friction/profile.hpp"
 #include "core/trial/outcome.hpp"
 #include "experiments/study/group_inputs.hpp"

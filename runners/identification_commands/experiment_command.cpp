@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/experiment_design/experiment_design.hpp"
+#include "analysis/record/experiment_design/experiment_design.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
 #include "core/failure/failure.hpp"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/records/raw_series.hpp"
+#include "analysis/record/records/raw_series.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 

@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/fit/laws/law_identification.hpp"
-#include "analysis/fit/presliding/identification.hpp"
-#include "analysis/fit/records/checked_record.hpp"
+#include "analysis/record/fit/laws/law_identification.hpp"
+#include "analysis/record/fit/presliding/identification.hpp"
+#include "analysis/record/fit/records/checked_record.hpp"
+#include "analysis/record/sliding_identification/sliding_identification.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
-#include "analysis/sliding_identification/sliding_identification.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/command_line.hpp"

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/records/dataset_file.hpp"
-#include "analysis/records/equal_series.hpp"
+#include "analysis/record/records/dataset_file.hpp"
+#include "analysis/record/records/equal_series.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/text.hpp"
 #include "experiments/tables/text_table.hpp"

@@ -13,9 +13,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/goal/question.hpp"
-#include "analysis/measures/move_criterion.hpp"
-#include "analysis/text/report_json.hpp"
+#include "analysis/basis/text/report_json.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/measures/move_criterion.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/text.hpp"
 #include "core/trial/outcome.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/plugin/controller_plugin.hpp"

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "analysis/parallel/parallel.hpp"
-#include "analysis/parallel/processors.hpp"
-#include "analysis/text/report_json.hpp"
-#include "analysis/text/text.hpp"
-#include "analysis/theory/plausibility.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/processors.hpp"
+#include "analysis/basis/text/report_json.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/trials/theory/plausibility.hpp"
 #include "experiments/manifest/json_schema.hpp"
 #include "experiments/yaml/problems.hpp"
 #include "results/layout/header.hpp"

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/mean_bounds.hpp"
-#include "analysis/statistics/unknown.hpp"
+#include "analysis/basis/statistics/mean_bounds.hpp"
+#include "analysis/basis/statistics/unknown.hpp"
 #include "experiments/designs/designs.hpp"
 
 namespace zerocount::rare {
@@ -522,8 +522,9 @@ bool splitting_disagrees(const EstimatorState& state, double high) {
 
 }  // namespace
 
-ProbabilityEstimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
-                  const std::function<bool(const EstimatorState&)>& go_on) {
+ProbabilityEstimate estimate(EstimatorState& state, const EstimatorSettings& settings,
+                             const Simulation& simulate,
+                             const std::function<bool(const EstimatorState&)>& go_on) {
   return Estimator(state, settings, simulate, go_on).run();
 }
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "analysis/statistics/proportion.hpp"
+#include "analysis/basis/statistics/proportion.hpp"
 #include "runners/rare/proposal.hpp"
 
 namespace zerocount::rare {
@@ -142,8 +142,9 @@ struct ProbabilityEstimate {
 /// @param state empty, or the state of an interrupted estimate, which is then resumed
 /// @param go_on asked with the state between parts of some hundred or thousand trials; false ends the
 /// estimate
-ProbabilityEstimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
-                  const std::function<bool(const EstimatorState&)>& go_on);
+ProbabilityEstimate estimate(EstimatorState& state, const EstimatorSettings& settings,
+                             const Simulation& simulate,
+                             const std::function<bool(const EstimatorState&)>& go_on);
 
 /// Estimate of the probability from the trials that a state already holds. No trial is run.
 ProbabilityEstimate answer_of(const EstimatorState& state, const EstimatorSettings& settings);

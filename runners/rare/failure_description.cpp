@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "analysis/parallel/parallel.hpp"
-#include "analysis/statistics/quantile.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/basis/statistics/quantile.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/designs.hpp"
 #include "runners/rare/rare_run.hpp"

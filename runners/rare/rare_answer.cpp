@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/question.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/goal/question.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "core/text/text.hpp"
 #include "runners/rare/rare_run.hpp"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/parallel/parallel.hpp"
-#include "analysis/statistics/unknown.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/basis/statistics/unknown.hpp"
 #include "experiments/study/setting_study.hpp"
 #include "runners/rare/rare_run.hpp"
 #include "runners/trials/trial_set.hpp"

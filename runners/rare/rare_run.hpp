@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/document/answer.hpp"
-#include "analysis/document/figure.hpp"
-#include "analysis/measures/move_event.hpp"
+#include "analysis/basis/document/answer.hpp"
+#include "analysis/basis/document/figure.hpp"
+#include "analysis/trials/measures/move_event.hpp"
 #include "experiments/randomness/random_coordinates.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/acceptance/acceptance.hpp"
-#include "analysis/goal/question.hpp"
-#include "analysis/monitor/equal_logs.hpp"
+#include "analysis/machine/acceptance/acceptance.hpp"
+#include "analysis/machine/monitor/equal_logs.hpp"
+#include "analysis/trials/goal/question.hpp"
 #include "core/failure/failure.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/comparison/comparison.hpp"
+#include "analysis/pairs/comparison/comparison.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"

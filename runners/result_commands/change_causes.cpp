@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/parameters/handles.hpp"

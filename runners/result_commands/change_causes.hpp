@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/monitor/parameter_change.hpp"
+#include "analysis/machine/monitor/parameter_change.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/study/study.hpp"
 

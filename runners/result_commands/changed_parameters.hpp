@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/monitor/machine_monitor.hpp"
-#include "analysis/monitor/monitor_baseline.hpp"
-#include "analysis/monitor/move_log.hpp"
-#include "analysis/monitor/parameter_change.hpp"
+#include "analysis/machine/monitor/machine_monitor.hpp"
+#include "analysis/machine/monitor/monitor_baseline.hpp"
+#include "analysis/machine/monitor/move_log.hpp"
+#include "analysis/machine/monitor/parameter_change.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/trials/effort.hpp"
 

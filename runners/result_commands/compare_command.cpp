@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/comparison/comparison.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/pairs/comparison/comparison.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
-#include "analysis/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/history/database.hpp"
-#include "analysis/history/run_record.hpp"
+#include "analysis/pairs/history/database.hpp"
+#include "analysis/pairs/history/run_record.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
 #include "results/reading/all_trials_file.hpp"

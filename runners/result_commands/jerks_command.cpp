@@ -1,7 +1,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/jerks/jerk_statistics.hpp"
+#include "analysis/trials/jerks/jerk_statistics.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/summary/cells_of_point.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/summary/chosen_summary.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/summary/cells_of_point.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
+#include "analysis/trials/summary/chosen_summary.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/command_line.hpp"

@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/summary/cells_of_point.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/text/text.hpp"
-#include "analysis/worlds/learning.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/summary/cells_of_point.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
+#include "analysis/trials/worlds/learning.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/setting_study.hpp"
 #include "experiments/yaml/text_file.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/monitor/move_log.hpp"
+#include "analysis/machine/monitor/move_log.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/command_line/command_line.hpp"
 

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/monitor/equal_logs.hpp"
-#include "analysis/monitor/machine_monitor.hpp"
-#include "analysis/monitor/monitor_baseline.hpp"
-#include "analysis/monitor/move_log.hpp"
+#include "analysis/machine/monitor/equal_logs.hpp"
+#include "analysis/machine/monitor/machine_monitor.hpp"
+#include "analysis/machine/monitor/monitor_baseline.hpp"
+#include "analysis/machine/monitor/move_log.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"

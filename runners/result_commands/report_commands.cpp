@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/comparison/comparison.hpp"
-#include "analysis/comparison/gate_rules.hpp"
-#include "analysis/history/database.hpp"
+#include "analysis/pairs/comparison/comparison.hpp"
+#include "analysis/pairs/comparison/gate_rules.hpp"
+#include "analysis/pairs/history/database.hpp"
 #include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"

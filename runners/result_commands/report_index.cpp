@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/document/blocks.hpp"
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/summary/chosen_summary.hpp"
-#include "analysis/summary/summary.hpp"
+#include "analysis/basis/document/blocks.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
+#include "analysis/trials/summary/chosen_summary.hpp"
+#include "analysis/trials/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/pieces.hpp"

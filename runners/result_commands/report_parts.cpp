@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/document/blocks.hpp"
-#include "analysis/goal/question.hpp"
+#include "analysis/basis/document/blocks.hpp"
 #include "analysis/report/page.hpp"
-#include "analysis/summary/chosen_point.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/document/answer.hpp"
-#include "analysis/summary/chosen_point.hpp"
+#include "analysis/basis/document/answer.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
 #include "runners/commands/command.hpp"
 
 namespace zerocount::result_commands {

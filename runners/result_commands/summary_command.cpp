@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/proportion.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/summary/summary.hpp"
-#include "analysis/summary_answer/point_selection.hpp"
-#include "analysis/summary_answer/summary_answer.hpp"
+#include "analysis/basis/statistics/proportion.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
+#include "analysis/trials/summary/summary.hpp"
+#include "analysis/trials/summary_answer/point_selection.hpp"
+#include "analysis/trials/summary_answer/summary_answer.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"

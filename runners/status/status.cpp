@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "runners/terminal/terminal.hpp"
 
 namespace zerocount::status {

@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/parallel/parallel.hpp"
-#include "analysis/statistics/sample_size.hpp"
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/theory/hunting_prediction.hpp"
-#include "analysis/theory/point_theory.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/basis/statistics/sample_size.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
+#include "analysis/trials/theory/hunting_prediction.hpp"
+#include "analysis/trials/theory/point_theory.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/text.hpp"
 #include "experiments/study/study_trial.hpp"

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/text/text.hpp"
-#include "analysis/theory/point_theory.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/trials/theory/point_theory.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/trial/machine.hpp"

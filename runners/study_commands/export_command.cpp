@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "analysis/iso230/results_group.hpp"
+#include "analysis/trials/iso230/results_group.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/results_file.hpp"

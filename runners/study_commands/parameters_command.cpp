@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/document/answer.hpp"
+#include "analysis/basis/document/answer.hpp"
 #include "experiments/guides/guide_manifest.hpp"
 #include "experiments/guides/guide_table.hpp"
 #include "experiments/keys/manifest_keys.hpp"

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/question.hpp"
-#include "analysis/goal/question_text.hpp"
-#include "analysis/statistics/quantile.hpp"
+#include "analysis/basis/statistics/quantile.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/goal/question_text.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/controller_code/program.hpp"
 #include "runners/study_commands/study_commands.hpp"

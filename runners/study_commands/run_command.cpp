@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
 #include "analysis/report/page.hpp"
-#include "analysis/summary/summary.hpp"
-#include "analysis/summary_answer/summary_answer.hpp"
+#include "analysis/trials/summary/summary.hpp"
+#include "analysis/trials/summary_answer/summary_answer.hpp"
 #include "core/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"

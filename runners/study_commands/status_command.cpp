@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "analysis/statistics/unknown.hpp"
-#include "analysis/summary/summary.hpp"
-#include "analysis/summary_answer/summary_answer.hpp"
-#include "analysis/text/report_json.hpp"
+#include "analysis/basis/statistics/unknown.hpp"
+#include "analysis/basis/text/report_json.hpp"
+#include "analysis/trials/summary/summary.hpp"
+#include "analysis/trials/summary_answer/summary_answer.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/text.hpp"
 #include "results/shards/pieces.hpp"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"

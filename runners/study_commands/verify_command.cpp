@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/document/answer.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/basis/document/answer.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/status/progress.hpp"

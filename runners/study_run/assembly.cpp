@@ -3,9 +3,9 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/iso230/results_group.hpp"
-#include "analysis/summary/stored_statistics.hpp"
-#include "analysis/summary/study_statistics.hpp"
+#include "analysis/trials/iso230/results_group.hpp"
+#include "analysis/trials/summary/stored_statistics.hpp"
+#include "analysis/trials/summary/study_statistics.hpp"
 #include "core/failure/failure.hpp"
 #include "results/shards/merge.hpp"
 #include "runners/study_run/file_run.hpp"

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/summary_answer/parts.hpp"
-#include "analysis/theory/theory_prediction.hpp"
+#include "analysis/trials/summary_answer/parts.hpp"
+#include "analysis/trials/theory/theory_prediction.hpp"
 #include "core/failure/failure.hpp"
 #include "core/plugin/controller_plugin.hpp"
 #include "experiments/study/study.hpp"

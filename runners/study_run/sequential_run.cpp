@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/mean_bounds.hpp"
+#include "analysis/basis/statistics/mean_bounds.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/storage/durable_file.hpp"

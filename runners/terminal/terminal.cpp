@@ -6,7 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "core/text/text.hpp"
 
 namespace zerocount::terminal {

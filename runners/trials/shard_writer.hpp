@@ -10,8 +10,8 @@
 
 #include <oneapi/tbb/task_group.h>
 
-#include "analysis/summary/study_statistics.hpp"
-#include "analysis/theory/theory_prediction.hpp"
+#include "analysis/trials/summary/study_statistics.hpp"
+#include "analysis/trials/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/layout/header.hpp"

@@ -17,8 +17,8 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "analysis/measures/point_columns.hpp"
-#include "analysis/parallel/processors.hpp"
+#include "analysis/basis/parallel/processors.hpp"
+#include "analysis/trials/measures/point_columns.hpp"
 #include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
 #include "results/layout/table_io.hpp"

@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "analysis/theory/theory_prediction.hpp"
+#include "analysis/trials/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"

@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "analysis/theory/theory_prediction.hpp"
+#include "analysis/trials/theory/theory_prediction.hpp"
 #include "core/batch/batch.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "experiments/study/trial_draws.hpp"

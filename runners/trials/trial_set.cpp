@@ -6,7 +6,7 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
 #include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "core/loop/encoder.hpp"
 #include "runners/trials/trial_set.hpp"
 #include "runners/tuning/tuner.hpp"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/document/description.hpp"
+#include "analysis/basis/document/description.hpp"
 #include "runners/tuning/effects/effects.hpp"
 #include "runners/tuning/stages.hpp"
 

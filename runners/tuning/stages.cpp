@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/summary/study_statistics.hpp"
-#include "analysis/theory/plausibility.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
+#include "analysis/trials/summary/study_statistics.hpp"
+#include "analysis/trials/theory/plausibility.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/parameters/handles.hpp"
 #include "runners/tuning/race/proof.hpp"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/summary/cells_of_point.hpp"
-#include "analysis/summary/move_behaviour.hpp"
+#include "analysis/trials/summary/cells_of_point.hpp"
+#include "analysis/trials/summary/move_behaviour.hpp"
 #include "runners/status/status.hpp"
 #include "runners/tuning/search/proof_runner.hpp"
 #include "runners/tuning/tune_plan.hpp"

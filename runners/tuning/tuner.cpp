@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "core/trial/trial.hpp"

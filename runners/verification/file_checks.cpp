@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/summary/study_statistics.hpp"
+#include "analysis/trials/summary/study_statistics.hpp"
 #include "core/text/text.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/summary_answer/summary_answer.hpp"
-#include "analysis/text/report_json.hpp"
+#include "analysis/basis/text/report_json.hpp"
+#include "analysis/trials/summary_answer/summary_answer.hpp"
 
 namespace zerocount::testing {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "analysis/comparison/gate_rules.hpp"
+#include "analysis/pairs/comparison/gate_rules.hpp"
 #include "tests/fuzz/expectation.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/fit/records/checked_record.hpp"
-#include "analysis/sliding_identification/sliding_record.hpp"
+#include "analysis/record/fit/records/checked_record.hpp"
+#include "analysis/record/sliding_identification/sliding_record.hpp"
 #include "experiments/tables/text_table.hpp"
 #include "runners/identification_commands/identification_commands.hpp"
 #include "tests/fuzz/expectation.hpp"

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/iso230/results_group.hpp"
-#include "analysis/summary/summary.hpp"
-#include "analysis/summary_answer/summary_answer.hpp"
-#include "analysis/text/report_json.hpp"
+#include "analysis/basis/text/report_json.hpp"
+#include "analysis/trials/iso230/results_group.hpp"
+#include "analysis/trials/summary/summary.hpp"
+#include "analysis/trials/summary_answer/summary_answer.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/results_file.hpp"
 #include "tests/fuzz/expectation.hpp"

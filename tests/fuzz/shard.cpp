@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "analysis/summary/study_statistics.hpp"
-#include "analysis/summary/summary.hpp"
-#include "analysis/summary_answer/summary_answer.hpp"
+#include "analysis/trials/summary/study_statistics.hpp"
+#include "analysis/trials/summary/summary.hpp"
+#include "analysis/trials/summary_answer/summary_answer.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/merge.hpp"

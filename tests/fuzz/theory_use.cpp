@@ -4,8 +4,8 @@
 #include <set>
 #include <string>
 
-#include "analysis/document/answer.hpp"
-#include "analysis/theory/point_theory.hpp"
+#include "analysis/basis/document/answer.hpp"
+#include "analysis/trials/theory/point_theory.hpp"
 #include "experiments/study/study.hpp"
 #include "tests/fuzz/expectation.hpp"
 

@@ -29,8 +29,8 @@ PARTS = ("product", "tests")  # of the tree
 # Headers that only these files may include.
 RESERVED = {
     r"Eigen/(?!Core$)|unsupported/Eigen/(?!FFT$)": {"core/numerics/dense.cpp"},
-    r"unsupported/Eigen/FFT$": {"analysis/fit/residuals.cpp"},
-    r"boost/math/distributions/": r"^(core|experiments)/.*\.cpp$|^analysis/statistics/distributions\.cpp$",
+    r"unsupported/Eigen/FFT$": {"analysis/record/fit/residuals.cpp"},
+    r"boost/math/distributions/": r"^(core|experiments)/.*\.cpp$|^analysis/basis/statistics/distributions\.cpp$",
     r"(ceres|boost/math|boost/program_options|yaml-cpp)/": r"\.cpp$",
     r"nlohmann/json\.hpp": r"\.cpp$|^analysis/(text/report_json|document/figure)\.hpp$",
 }

@@ -17,7 +17,7 @@ SYMBOL = re.compile(r" ([A-Za-z]) (" + "|".join(FUNCTIONS) + ")[fl]?$", re.MULTI
 # Except the theory: it predicts, and no value of a dataset comes from it.
 REPRODUCIBLE = re.compile(r"libzerocount_(core_(?!theory)|experiments_|results_)")
 # Linked to the program alone, and not installed: its statistics have the same bits on every processor too.
-PROGRAM = "libzerocount_analysis_statistics.a"
+PROGRAM = "libzerocount_analysis_basis_statistics.a"
 
 
 def problems(build):

@@ -1,6 +1,6 @@
 // The README's first study: its manifest and its commands do what it says of them.
 
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {

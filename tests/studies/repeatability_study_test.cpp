@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "analysis/iso230/repeatability.hpp"
+#include "analysis/trials/iso230/repeatability.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/studies/proportion_bounds.hpp"

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/comparison/comparison.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/pairs/comparison/comparison.hpp"
 #include "analysis/report/report_sections.hpp"
-#include "analysis/text/text.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <limits>
 
-#include "analysis/comparison/comparison.hpp"
-#include "analysis/document/answer.hpp"
-#include "analysis/document/figure.hpp"
-#include "analysis/history/series.hpp"
+#include "analysis/basis/document/answer.hpp"
+#include "analysis/basis/document/figure.hpp"
+#include "analysis/pairs/comparison/comparison.hpp"
+#include "analysis/pairs/history/series.hpp"
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/sensitivity/sensitivity.hpp"
+#include "analysis/trials/sensitivity/sensitivity.hpp"
 
 namespace zerocount::experiment_design {
 struct ExperimentDesign;

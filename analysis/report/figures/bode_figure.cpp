@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/theory/curves.hpp"
-#include "analysis/theory/point_theory.hpp"
-#include "analysis/theory/theory_prediction.hpp"
-#include "analysis/theory/trial_loops.hpp"
+#include "analysis/trials/theory/curves.hpp"
+#include "analysis/trials/theory/point_theory.hpp"
+#include "analysis/trials/theory/theory_prediction.hpp"
+#include "analysis/trials/theory/trial_loops.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/stability.hpp"
 #include "experiments/study/study_trial.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/document/figure.hpp"
+#include "analysis/basis/document/figure.hpp"
 #include "core/text/text.hpp"
 #include "experiments/parameters/study_units.hpp"
 

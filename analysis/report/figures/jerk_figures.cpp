@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/jerks/jerk_statistics.hpp"
+#include "analysis/basis/statistics/unknown.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/statistics/unknown.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/trials/jerks/jerk_statistics.hpp"
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::report {

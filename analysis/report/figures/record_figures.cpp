@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/experiment_design/experiment_design.hpp"
-#include "analysis/fit/presliding/identification.hpp"
+#include "analysis/record/experiment_design/experiment_design.hpp"
+#include "analysis/record/fit/presliding/identification.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
-#include "analysis/theory/point_theory.hpp"
+#include "analysis/trials/theory/point_theory.hpp"
 
 namespace zerocount::report {
 namespace {

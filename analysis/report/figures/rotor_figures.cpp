@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/question_text.hpp"
+#include "analysis/basis/statistics/unknown.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/statistics/unknown.hpp"
+#include "analysis/trials/goal/question_text.hpp"
 #include "experiments/parameters/handles.hpp"
 #include "results/layout/layout.hpp"
 

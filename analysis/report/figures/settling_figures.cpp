@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/question_text.hpp"
+#include "analysis/basis/statistics/sums/histogram.hpp"
+#include "analysis/basis/statistics/unknown.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/statistics/sums/histogram.hpp"
-#include "analysis/statistics/unknown.hpp"
-#include "analysis/summary/cells_of_point.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/goal/question_text.hpp"
+#include "analysis/trials/summary/cells_of_point.hpp"
 #include "experiments/study/setting_study.hpp"
 
 namespace zerocount::report {

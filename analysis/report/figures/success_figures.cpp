@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/question_text.hpp"
+#include "analysis/basis/statistics/unknown.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/statistics/unknown.hpp"
-#include "analysis/summary/cells_of_point.hpp"
-#include "analysis/theory/curves.hpp"
+#include "analysis/trials/goal/question_text.hpp"
+#include "analysis/trials/summary/cells_of_point.hpp"
+#include "analysis/trials/theory/curves.hpp"
 #include "experiments/parameters/handles.hpp"
 #include "experiments/study/setting_study.hpp"
 

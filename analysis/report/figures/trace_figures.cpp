@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/study/study_trial.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/document/blocks.hpp"
+#include "analysis/basis/document/blocks.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/report/first_screen/first_screen.hpp"
 #include "core/friction/law.hpp"

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/document/blocks.hpp"
+#include "analysis/basis/document/blocks.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/report_sections.hpp"
-#include "analysis/summary/move_behaviour.hpp"
-#include "analysis/text/text.hpp"
-#include "analysis/theory/point_theory.hpp"
-#include "analysis/theory/theory_prediction.hpp"
+#include "analysis/trials/summary/move_behaviour.hpp"
+#include "analysis/trials/theory/point_theory.hpp"
+#include "analysis/trials/theory/theory_prediction.hpp"
 #include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_sources.hpp"
 #include "experiments/study/study_trial.hpp"

@@ -10,7 +10,7 @@
 
 #include "analysis/report/page.hpp"
 #include "analysis/report/reported_study.hpp"
-#include "analysis/summary/cells_of_point.hpp"
+#include "analysis/trials/summary/cells_of_point.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/study/goal.hpp"
 #include "experiments/study/point_limits.hpp"
@@ -20,7 +20,7 @@
 /// gains with the margins of the loops, and the assumptions.
 namespace zerocount::report {
 
-// The quantities of analysis/text, in which a line does not break between a number and its unit.
+// The quantities of analysis/basis/text, in which a line does not break between a number and its unit.
 std::string quantity_text(double value, std::string_view unit);
 std::string range_text(double low, double high, std::string_view unit);
 std::string list_text(std::span<const double> values, std::string_view unit);

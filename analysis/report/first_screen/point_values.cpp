@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/first_screen/first_screen.hpp"
-#include "analysis/text/text.hpp"
 #include "experiments/study/plan.hpp"
 
 namespace zerocount::report {

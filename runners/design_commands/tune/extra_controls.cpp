@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_text.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
 #include "runners/tuning/search/proof_runner.hpp"
 #include "runners/tuning/search/study_search.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/measures/move_criterion.hpp"
+#include "analysis/trials/measures/move_criterion.hpp"
 #include "core/numerics/roots.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"

@@ -1,5 +1,5 @@
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/text/text.hpp"
 #include "core/numerics/roots.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
 

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/goal/goal_text.hpp"
+#include "analysis/basis/statistics/unknown.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/statistics/unknown.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/text.hpp"
 #include "core/theory/gains.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/document/answer.hpp"
-#include "analysis/document/description.hpp"
+#include "analysis/basis/document/answer.hpp"
+#include "analysis/basis/document/description.hpp"
 #include "analysis/report/page.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/design_commands/design_commands.hpp"

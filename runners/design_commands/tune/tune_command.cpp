@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/report/page.hpp"
 #include "core/failure/failure.hpp"

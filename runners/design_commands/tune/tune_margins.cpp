@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "core/text/text.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"

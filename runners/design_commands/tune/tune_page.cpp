@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/document/blocks.hpp"
+#include "analysis/basis/document/blocks.hpp"
+#include "analysis/basis/statistics/proportion.hpp"
 #include "analysis/report/first_screen/first_screen.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/report/report.hpp"
-#include "analysis/statistics/proportion.hpp"
 #include "results/layout/header.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/goal/goal_text.hpp"
-#include "analysis/measures/move_criterion.hpp"
-#include "analysis/summary/cells_of_point.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/basis/text/text.hpp"
+#include "analysis/trials/goal/goal_text.hpp"
+#include "analysis/trials/measures/move_criterion.hpp"
+#include "analysis/trials/summary/cells_of_point.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/trials/goal/goal_verdict.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/variant.hpp"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/parallel/parallel.hpp"
-#include "analysis/theory/theory_prediction.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/trials/theory/theory_prediction.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_rules.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/distributions.hpp"
+#include "analysis/basis/statistics/distributions.hpp"
 #include "experiments/study/setting_study.hpp"
 #include "runners/tuning/effects/effects.hpp"
 
@@ -56,8 +56,8 @@ void name_claims(const EffectRuns& runs, Limit& limit) {
   }
 }
 
-/// RateEstimate::margin (worst success rate compared with the wanted one, larger is better) of a changed point on
-/// its first `count` machines; −infinity if the point cannot be simulated.
+/// RateEstimate::margin (worst success rate compared with the wanted one, larger is better) of a changed
+/// point on its first `count` machines; −infinity if the point cannot be simulated.
 double margin_on(const EffectRuns& runs, const ChangedPoint& point, std::int64_t count) {
   if (!point.refusal.empty()) return -std::numeric_limits<double>::infinity();
   return estimate_of(runs.aim(), point.machines, count).margin;
@@ -189,7 +189,7 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point) {
 }
 
 RateEstimate estimate_on(const study::Study& study, const trials::Replicates& machines, std::int64_t count,
-                     const Change* change, const trials::Effort& effort) {
+                         const Change* change, const trials::Effort& effort) {
   return estimate_of(aim_of(study), results_of(study, machines, count, change, effort), count);
 }
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
-#include "analysis/parallel/parallel.hpp"
-#include "analysis/theory/theory_prediction.hpp"
-#include "analysis/theory/trial_loops.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/trials/theory/theory_prediction.hpp"
+#include "analysis/trials/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/numerics/roots.hpp"

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/comparison/gate_rules.hpp"
-#include "analysis/goal/question.hpp"
-#include "analysis/measures/move_criterion.hpp"
-#include "analysis/measures/trial_value.hpp"
+#include "analysis/pairs/comparison/gate_rules.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/measures/move_criterion.hpp"
+#include "analysis/trials/measures/trial_value.hpp"
 #include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/move_measures.hpp"

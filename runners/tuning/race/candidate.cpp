@@ -6,10 +6,10 @@
 #include <limits>
 #include <map>
 
-#include "analysis/goal/standing.hpp"
-#include "analysis/parallel/parallel.hpp"
-#include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/quantile.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/basis/statistics/proportion.hpp"
+#include "analysis/basis/statistics/quantile.hpp"
+#include "analysis/trials/goal/standing.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -168,7 +168,7 @@ RateEstimate estimate_of(const Aim& aim, std::span<const MachineResult> machines
 }
 
 std::vector<RateEstimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates,
-                                   std::int64_t machines) {
+                                       std::int64_t machines) {
   std::vector<RateEstimate> estimates(candidates.size());
   parallel::for_each_index(
       candidates.size(),

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/goal/goal_verdict.hpp"
-#include "analysis/measures/move_counts.hpp"
+#include "analysis/trials/goal/goal_verdict.hpp"
+#include "analysis/trials/measures/move_counts.hpp"
 #include "experiments/study/goal.hpp"
 
 namespace zerocount::tuning {

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
 #include "core/random/random_numbers.hpp"
 #include "experiments/designs/designs.hpp"
 
@@ -486,7 +486,7 @@ class Search {
   std::int64_t most_machines_;  ///< Maximum number of machines per candidate in the current race.
   std::set<Values> tried_;
   std::map<Values, RateEstimate> estimates_;  ///< Latest estimate of each simulated set of values.
-  std::vector<Candidate> population_;     ///< Candidates that survived the last race, the best first.
+  std::vector<Candidate> population_;         ///< Candidates that survived the last race, the best first.
   /// Best of the given starting values, kept so that few machines do not drop it by chance.
   std::optional<Candidate> best_start_;
   /// Best candidates after each generation since two thirds of the points were tried, beginning with the one

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_verdict.hpp"
-#include "analysis/parallel/parallel.hpp"
-#include "analysis/statistics/proportion.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/basis/statistics/proportion.hpp"
+#include "analysis/trials/goal/goal_verdict.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/manifest_text.hpp"

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/parallel/parallel.hpp"
-#include "analysis/statistics/unknown.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
+#include "analysis/basis/statistics/unknown.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/parameters/handles.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/distributions.hpp"
+#include "analysis/basis/statistics/distributions.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/manifest_text/manifest_text.hpp"

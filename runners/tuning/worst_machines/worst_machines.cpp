@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/measures/move_criterion.hpp"
-#include "analysis/measures/move_event.hpp"
+#include "analysis/trials/measures/move_criterion.hpp"
+#include "analysis/trials/measures/move_event.hpp"
 #include "core/failure/failure.hpp"
 #include "core/random/random_numbers.hpp"
 #include "experiments/designs/designs.hpp"

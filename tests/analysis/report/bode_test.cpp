@@ -1,7 +1,7 @@
 // The Bode plot marks the margins.
 #include <nlohmann/json.hpp>
 
-#include "analysis/document/blocks.hpp"
+#include "analysis/basis/document/blocks.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/report/report.hpp"
 #include "core/theory/margins.hpp"

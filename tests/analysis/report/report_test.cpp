@@ -2,14 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/comparison/comparison.hpp"
-#include "analysis/history/series.hpp"
+#include "analysis/pairs/comparison/comparison.hpp"
+#include "analysis/pairs/history/series.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/summary/move_behaviour.hpp"
-#include "analysis/summary/stored_statistics.hpp"
-#include "analysis/summary/study_statistics.hpp"
-#include "analysis/summary/summary.hpp"
+#include "analysis/trials/summary/move_behaviour.hpp"
+#include "analysis/trials/summary/stored_statistics.hpp"
+#include "analysis/trials/summary/study_statistics.hpp"
+#include "analysis/trials/summary/summary.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/analysis/report/run_studies.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/summary/stored_statistics.hpp"
+#include "analysis/trials/summary/stored_statistics.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study_trial.hpp"

@@ -1,8 +1,8 @@
 // What the command line says with bounds: summary at another confidence, plan, jerks.
 #include <regex>
 
-#include "analysis/statistics/proportion.hpp"
-#include "analysis/text/text.hpp"
+#include "analysis/basis/statistics/proportion.hpp"
+#include "analysis/basis/text/text.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 

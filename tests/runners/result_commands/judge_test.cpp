@@ -1,8 +1,8 @@
 // Error bands and the goal, from the manifest to the answer of `judge`.
 
-#include "analysis/goal/question.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/summary/chosen_summary.hpp"
+#include "analysis/trials/goal/question.hpp"
+#include "analysis/trials/summary/chosen_summary.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/draws.hpp"

@@ -1,7 +1,7 @@
 // The nightly job, run as it is on studies of a few trials.
-#include "analysis/comparison/comparison.hpp"
-#include "analysis/comparison/point_judgements.hpp"
-#include "analysis/comparison/point_trials.hpp"
+#include "analysis/pairs/comparison/comparison.hpp"
+#include "analysis/pairs/comparison/point_judgements.hpp"
+#include "analysis/pairs/comparison/point_trials.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "runners/trials/trial_runner.hpp"
 #include "tests/runners/program.hpp"

@@ -2,7 +2,7 @@
 // report.
 #include <regex>
 
-#include "analysis/statistics/clusters/observed_test.hpp"
+#include "analysis/basis/statistics/clusters/observed_test.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 

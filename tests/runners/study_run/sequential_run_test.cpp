@@ -1,7 +1,7 @@
 // Runs that stop when they are sure: when they do, and that it depends on the trials alone.
 #include <csignal>
 
-#include "analysis/statistics/mean_bounds.hpp"
+#include "analysis/basis/statistics/mean_bounds.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"

@@ -7,7 +7,7 @@
 
 #include <oneapi/tbb/task_arena.h>
 
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"

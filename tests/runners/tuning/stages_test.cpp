@@ -1,8 +1,8 @@
 // Each stage of a tuning by itself, from values to values.
 #include "runners/tuning/stages.hpp"
 
-#include "analysis/summary/chosen_point.hpp"
-#include "analysis/summary/study_statistics.hpp"
+#include "analysis/trials/summary/chosen_point.hpp"
+#include "analysis/trials/summary/study_statistics.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "runners/tuning/extras.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"

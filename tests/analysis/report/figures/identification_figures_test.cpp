@@ -1,5 +1,5 @@
 // The figures of an identification: what is drawn of a record is what the fit left of it.
-#include "analysis/fit/presliding/identification.hpp"
+#include "analysis/record/fit/presliding/identification.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
 #include "tests/support/test.hpp"

@@ -1,7 +1,7 @@
 // The first screen: what is required and whether it is met, the gains in the open, and what is assumed.
 #include "analysis/report/first_screen/first_screen.hpp"
 
-#include "analysis/summary/move_behaviour.hpp"
+#include "analysis/trials/summary/move_behaviour.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/sections/external_inputs.hpp"
 #include "tests/analysis/report/run_studies.hpp"

@@ -4,7 +4,7 @@
 
 #include <oneapi/tbb/task_arena.h>
 
-#include "analysis/parallel/parallel.hpp"
+#include "analysis/basis/parallel/parallel.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,0 +1,209 @@
+#include "analysis/record/fit/presliding/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "analysis/record/fit/presliding/contact_fit.hpp"
+
+namespace zerocount::fit {
+
+namespace {
+
+/// Breakaway torque of a fitted contact, in multiples of the torque scale σ0: above all torques of a record,
+/// so that the contact never slides.
+constexpr double breakaway_factor = 1e3;
+
+}  // namespace
+
+ContactParameters contact_at(const Point& point, double creep_torque) {
+  ContactParameters contact;
+  contact.friction.k1 = std::exp(point[log_k1]);
+  contact.friction.k2 = std::exp(point[log_k2]);
+  contact.friction.beta = std::exp(point[log_beta]);
+  contact.plant.presliding_damping = std::exp(point[log_damping]);
+  contact.plant.inertia = std::exp(point[log_inertia]);
+  contact.friction.alpha = std::exp(point[log_alpha]);
+  contact.friction.n = point[creep_exponent];
+  contact.friction.lambda = std::exp(contact.friction.n * std::log(creep_torque) - point[log_limit]);
+  contact.friction.breakaway = breakaway_factor * creep_torque;
+  return contact;
+}
+
+namespace {
+
+/// A reported quantity that is a coordinate of the fit itself, not its exponential.
+Quantity of_coordinate(const std::string& name, const std::string& unit, Coordinate coordinate,
+                       const Point& point) {
+  return coordinate_quantity(name, std::string(coordinate_keys[coordinate]), unit, point, coordinate);
+}
+
+Quantity sum_of_stiffnesses(const Point& point) {
+  const double k1 = std::exp(point[log_k1]);
+  const double k2 = std::exp(point[log_k2]);
+  Quantity quantity = coordinate_quantity("k1_plus_k2", "", "N m/rad", point, log_k1);
+  quantity.value = std::log(k1 + k2);
+  quantity.slope[log_k1] = k1 / (k1 + k2);
+  quantity.slope[log_k2] = k2 / (k1 + k2);
+  return quantity;
+}
+
+Quantity hardening_modulus(const Point& point, double creep_torque) {
+  const double logarithm = std::log(creep_torque);
+  Quantity quantity = of_coordinate("lambda", "(N m)^n/rad", log_limit, point);
+  quantity.value = point[creep_exponent] * logarithm - point[log_limit];
+  quantity.slope[log_limit] = -1.0;
+  quantity.slope[creep_exponent] = logarithm;
+  return quantity;
+}
+
+std::vector<Quantity> fitted_quantities(const Point& point, double creep_torque) {
+  Quantity exponent = of_coordinate("n", "1", creep_exponent, point);
+  exponent.logarithmic = false;
+  return {of_coordinate("k1", "N m/rad", log_k1, point),
+          of_coordinate("k2", "N m/rad", log_k2, point),
+          sum_of_stiffnesses(point),
+          of_coordinate("beta", "1/rad", log_beta, point),
+          of_coordinate("presliding_damping", "N m s/rad", log_damping, point),
+          of_coordinate("inertia", "kg m^2", log_inertia, point),
+          of_coordinate("alpha", "1/s", log_alpha, point),
+          hardening_modulus(point, creep_torque),
+          exponent,
+          time_offset_quantity(point)};
+}
+
+}  // namespace
+
+FitModel contact_model(double creep_torque) {
+  // Far beyond, simulations become very slow. The limit of creep may vanish, which does not slow them.
+  constexpr double max_change = 4.6;  // a factor of 100
+  constexpr double max_creep_decrease = 14.0;
+  constexpr double min_exponent = 0.2;
+  constexpr double max_exponent = 20.0;
+  FitModel model;
+  model.free.assign(coordinate_count, true);
+  model.ranges.assign(coordinate_count, {.max_decrease = max_change, .max_increase = max_change});
+  model.ranges[log_limit].max_decrease = max_creep_decrease;
+  model.ranges[creep_exponent] = {.low = min_exponent, .high = max_exponent};
+  model.ranges[time_offset] = time_offset_range();
+  model.parameters_at = [creep_torque](const Point& point) {
+    const ContactParameters contact = contact_at(point, creep_torque);
+    return AxisParameters{contact.plant, {contact.friction, {}}};
+  };
+  model.quantities_at = [creep_torque](const Point& point) { return fitted_quantities(point, creep_torque); };
+  return model;
+}
+
+Point point_of(const ContactParameters& contact, double creep_torque) {
+  Point point = Point::Zero(coordinate_count);
+  point[log_k1] = std::log(contact.friction.k1);
+  point[log_k2] = std::log(contact.friction.k2);
+  point[log_beta] = std::log(contact.friction.beta);
+  point[log_damping] = std::log(contact.plant.presliding_damping);
+  point[log_inertia] = std::log(contact.plant.inertia);
+  point[log_alpha] = std::log(contact.friction.alpha);
+  point[creep_exponent] = contact.friction.n;
+  point[log_limit] = contact.friction.n * std::log(creep_torque) - std::log(contact.friction.lambda);
+  return point;
+}
+
+namespace {
+
+/// The coordinates of the same contact for another torque scale σ0 of the creep.
+/// @param before, after old and new σ0, N m
+Point with_creep_torque(Point point, double before, double after) {
+  point[log_limit] += point[creep_exponent] * std::log(after / before);
+  return point;
+}
+
+/// Profile likelihood: the minimum sum of squares as a function of one coordinate, minimised over the others.
+class ProfileLikelihood {
+ public:
+  ProfileLikelihood(Records records, const ContactFit& fit, Coordinate coordinate)
+      : records_(records),
+        fit_(fit),
+        setting_(fit.setting),
+        start_(fit.model.point),
+        coordinate_(coordinate) {
+    if (coordinate == log_limit) {  // at 1 N m the coordinate is −ln λ for every n
+      start_.axis = with_creep_torque(start_.axis, fit.creep_torque, 1.0);
+      setting_.prior = with_creep_torque(setting_.prior, fit.creep_torque, 1.0);
+      setting_.model = contact_model(1.0);
+    }
+    const FitResult best = fit_jointly(records_, fit_.observations, start_, setting_);
+    start_ = best.point;
+    least_ = best.squares;
+    const Eigen::MatrixXd covariance =
+        textbook_covariance(model_at(records_, start_, setting_), fit_.observations, setting_);
+    variance_ = covariance(coordinate, coordinate);
+    follow_ = covariance.col(coordinate) / variance_;
+  }
+
+  /// The change of the coordinate at which the minimum sum of squares exceeds that of the fit by
+  /// distance²/variance; null if this is not found within a change of `max_distance`.
+  std::optional<double> end(double distance, double max_distance) {
+    const double target = distance * distance / variance_;
+    constexpr int max_tries = 10;
+    constexpr double close_enough = 0.02;
+    double at = distance;
+    for (int i = 0; i < max_tries; ++i) {
+      const double ratio = std::sqrt(std::max(squares_at(at) - least_, 0.0) / target);
+      if (std::abs(ratio - 1.0) < close_enough) return at;
+      at /= std::clamp(ratio, 0.4, 2.5);
+      if (std::abs(at) > max_distance) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  double squares_at(double change) {
+    FitSetting setting = setting_;
+    setting.free[coordinate_] = false;
+    setting.max_steps = 10;
+    FitPoint start = start_;
+    // Limits the step of poorly determined coordinates; the fit moves them further if needed.
+    constexpr double max_step = 1.0;
+    start.axis += (follow_.head(contact_dimension) * change).cwiseMin(max_step).cwiseMax(-max_step);
+    start.offset += follow_.tail(start.offset.size()) * change;
+    start.axis[coordinate_] = start_.axis[coordinate_] + change;
+    return fit_jointly(records_, fit_.observations, start, setting).squares;
+  }
+
+  Records records_;
+  const ContactFit& fit_;
+  FitSetting setting_;
+  FitPoint start_;
+  Coordinate coordinate_;
+  double least_{0.0};
+  double variance_{1.0};
+  Eigen::VectorXd follow_;  // change of all unknowns per change of the coordinate
+};
+
+}  // namespace
+
+Coordinate coordinate_of(const Quantity& quantity) {
+  Eigen::Index first = 0;
+  while (quantity.slope[first] == 0.0) ++first;
+  return static_cast<Coordinate>(first);
+}
+
+QuantityEstimate interval_by_profile(Records records, const ContactFit& fit, const Quantity& quantity,
+                                     const QuantityEstimate& estimate) {
+  const Coordinate coordinate = coordinate_of(quantity);
+  const double max_distance = quantity.logarithmic ? std::log(4.0) : 2.0;
+  const double sense = quantity.slope[coordinate] < 0.0 ? -1.0 : 1.0;  // of λ and its coordinate
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  ProfileLikelihood profile(records, fit, coordinate);
+  const auto end = [&](double linear) {
+    const std::optional<double> found = profile.end(sense * (linear - quantity.value), max_distance);
+    return found ? quantity.value + sense * *found : std::copysign(infinity, linear - quantity.value);
+  };
+  QuantityEstimate result = estimate;
+  result.value = quantity.value;
+  result.low = end(estimate.low);
+  result.high = end(estimate.high);
+  return result;
+}
+
+}  // namespace zerocount::fit

@@ -8,6 +8,7 @@
 
 #include "core/batch/batch.hpp"
 #include "core/batch/kernels/batch_state.hpp"
+#include "core/batch/lanes/member_count.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/controller/control_chain.hpp"
 #include "core/loop/controller/controller.hpp"
@@ -18,6 +19,18 @@
 
 namespace zerocount::batch {
 namespace {
+
+// The functions below decide for each member of these structures whether the lanes have its feature. One that
+// is added later changes a count, and asks for a decision.
+static_assert(member_count<trial::TrialParameters>() == 12, "lacking(): decide on the new part of a trial");
+static_assert(member_count<loop::ControllerParameters>() == 14, "lacking(): decide on the new member");
+static_assert(member_count<loop::ControlBlocks>() == 13,
+              "blocks_remember(), has_blocks(): decide on the new block");
+static_assert(member_count<trial::CommandParameters>() == 5, "lacking(): decide on the new member");
+static_assert(member_count<trial::DisturbanceParameters>() == 4,
+              "lacking(), needs_lane_drive(): decide on the new disturbance");
+static_assert(member_count<motion::LoadParameters>() == 6, "lacking(): decide on the new member");
+static_assert(member_count<trial::LoadSideParameters>() == 3, "lacking(): decide on the new member");
 
 /// Whether the torque changes from sample to sample for ever, because of a dither or the carried-over
 /// rounding error of a sigma-delta converter.
@@ -49,27 +62,24 @@ bool has_noise_alone(const trial::TrialParameters& p) {
          loop::coarse_resolution(p.encoder) >= loop::fine_resolution(p.encoder);
 }
 
-// Each overload returns the feature that the lanes lack, empty if they have all. Each switch lists all
-// enumerators and each structured binding all members, so that the compiler demands a decision for one that
-// is added later.
-
+/// Whether a block of the controller can change the torque at zero error and without motion, because it has a
+/// memory other than the integral.
 bool blocks_remember(const loop::ControlBlocks& blocks) {
-  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, window, cutoff, filters,
-                                feedforward, observer, error_deadband, hold, standstill] = blocks;
-  // At zero error and without motion, only memory other than the integral can change the torque.
-  return observer.bandwidth > 0.0 || !filters.empty() || std::isfinite(cutoff) || std::isfinite(leak) ||
+  return blocks.observer.bandwidth > 0.0 || !blocks.filters.empty() ||
+         std::isfinite(blocks.derivative_cutoff) || std::isfinite(blocks.integrator_leak) ||
          has_queues(blocks);
 }
 
+/// The feature of a controller that the lanes lack; empty if they have all.
 std::string_view lacking(const loop::ControllerParameters& controller,
                          const loop::EncoderParameters& encoders) {
   static_assert(
       std::is_same_v<loop::ControlBlockChain, loop::BlockChain<loop::ControlLaw, loop::Filters,
                                                                loop::Feedforward, loop::DisturbanceObserver>>,
       "sample_kernel has these blocks: another one needs its law there, or needs_lane_loop()");
-  [[maybe_unused]] const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks,
-                                velocity_by_other, user, dither, missed, jitter] = controller;
-  return velocity_by_other || (user.plugin && loop::has_other(encoders)) ? "encoder.load" : "";
+  const bool reads_two =
+      controller.velocity_by_other || (controller.user.plugin && loop::has_other(encoders));
+  return reads_two ? "encoder.load" : "";
 }
 
 /// The feature of a disturbance that the vectorised lanes lack, as a noun phrase; empty if they have all of
@@ -77,11 +87,11 @@ std::string_view lacking(const loop::ControllerParameters& controller,
 /// @param max_frequency highest frequency of a vibration whose series over a sample is accurate, Hz.
 std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMotion motion,
                          double max_frequency) {
-  [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = disturbance;
-  const bool vibrates = !vibration.empty() || !spectra.empty();
+  const auto& vibration = disturbance.vibration;
+  const bool vibrates = !vibration.empty() || !disturbance.spectra.empty();
   switch (motion) {
     case LaneMotion::free:
-      if (!ripple.empty()) return "disturbance.ripple without friction";
+      if (!disturbance.ripple.empty()) return "disturbance.ripple without friction";
       if (vibrates) return "disturbance.vibration without friction";
       break;
     case LaneMotion::coulomb:
@@ -91,35 +101,33 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
       break;
   }
   const auto is_fast = [&](double frequency) { return frequency > max_frequency; };
-  const bool fast_line = std::any_of(vibration.begin(), vibration.end(),
-                                     [&](const auto& line) { return is_fast(line.frequency); });
-  const bool fast_spectrum = std::any_of(spectra.begin(), spectra.end(), [&](const auto& spectrum) {
-    return is_fast(spectrum->density.back().frequency);
-  });
+  const bool fast_line =
+      std::ranges::any_of(vibration, [&](const auto& line) { return is_fast(line.frequency); });
+  const bool fast_spectrum = std::ranges::any_of(
+      disturbance.spectra, [&](const auto& spectrum) { return is_fast(spectrum->density.back().frequency); });
   if (fast_line || fast_spectrum) return "a vibration above half the sample rate";
-  return ripple.size() > max_lane_ripples ? "more than eight ripples" : "";
+  return disturbance.ripple.size() > max_lane_ripples ? "more than eight ripples" : "";
 }
 
 /// The features of the second mass that the trial has and the vectorised lanes lack, as noun phrases.
 std::vector<std::string_view> lacking(const motion::LoadParameters& load,
                                       const trial::LoadSideParameters& side) {
-  [[maybe_unused]] const auto& [inertia, stiffness, damping, encoder, gap, damping_to_ground] = load;
-  [[maybe_unused]] const auto& [error, disturbance, friction] = side;
+  const trial::DisturbanceParameters& disturbance = side.disturbance;
   std::vector<std::string_view> features;
-  if (inertia == 0.0) return features;
-  if (friction.model != friction::LoadFrictionModel::none) features.push_back("plant.load.friction");
-  if (gap > 0.0) features.push_back("plant.load.gap");
-  if (!error.empty()) features.push_back("plant.load.error");
-  if (damping_to_ground > 0.0) features.push_back("plant.load.damping_to_ground");
+  if (load.inertia == 0.0) return features;
+  if (side.friction.model != friction::LoadFrictionModel::none) features.push_back("plant.load.friction");
+  if (load.gap > 0.0) features.push_back("plant.load.gap");
+  if (!side.error.empty()) features.push_back("plant.load.error");
+  if (load.damping_to_ground > 0.0) features.push_back("plant.load.damping_to_ground");
   if (disturbance.torque != 0.0 || !disturbance.ripple.empty() || !disturbance.vibration.empty() ||
       !disturbance.spectra.empty())
     features.push_back("disturbance.load");
   return features;
 }
 
+/// The feature of a command that the lanes lack; empty if they have all.
 std::string_view lacking(const trial::CommandParameters& command) {
-  [[maybe_unused]] const auto& [targets, hold, profile, torque, exact_targets] = command;
-  return targets.empty() && torque.levels.empty() ? "no moves" : "";
+  return command.targets.empty() && command.torque.levels.empty() ? "no moves" : "";
 }
 
 /// Whether each move of the trial has at least one sample. A move to a torque level without a hold may have
@@ -134,16 +142,14 @@ bool has_samples(const trial::TrialParameters& p) {
 /// The features of the trial that the vectorised lanes lack, as noun phrases; `motion` is the kind of kernel
 /// of its friction model.
 std::vector<std::string_view> lacking(const trial::TrialParameters& p, LaneMotion motion) {
-  [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
-                                verdict, randomness, disturbance, load_side] = p;
   // After a late sample the series must reach up to the next one.
-  const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
-  std::vector<std::string_view> features = lacking(plant.load, load_side);
-  for (const std::string_view feature :
-       {lacking(controller, encoder), lacking(command), lacking(disturbance, motion, max_frequency)}) {
+  const double max_frequency = 0.5 / (1.0 / p.controller.sample_rate + p.controller.jitter);
+  std::vector<std::string_view> features = lacking(p.plant.load, p.load_side);
+  for (const std::string_view feature : {lacking(p.controller, p.encoder), lacking(p.command),
+                                         lacking(p.disturbance, motion, max_frequency)}) {
     if (!feature.empty()) features.push_back(feature);
   }
-  if (friction.gms_elements.size() > max_lane_elements)
+  if (p.friction.gms_elements.size() > max_lane_elements)
     features.push_back("more than sixteen elements of gms");
   if (!has_samples(p)) features.push_back("moves without a sample");
   return features;
@@ -180,19 +186,18 @@ bool remembers(const trial::TrialParameters& p) {
 
 bool has_blocks(const trial::TrialParameters& parameters) {
   // The feed-forward acts on profiles alone, and a window of counts by has_queues(): both need a LaneLoop.
-  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, window, cutoff, filters,
-                                feedforward, observer, error_deadband, hold, standstill] =
-      parameters.controller.blocks;
-  return structure != loop::ControlStructure::pid || deadband.enter >= 0.0 || std::isfinite(zone) ||
-         std::isfinite(leak) || std::isfinite(cutoff) || !filters.empty() || observer.bandwidth > 0.0 ||
-         error_deadband.band > 0.0 || hold.enter >= 0.0 || standstill.band >= 0.0 ||
-         never_settles(parameters);
+  const loop::ControlBlocks& blocks = parameters.controller.blocks;
+  return blocks.structure != loop::ControlStructure::pid || blocks.deadband.enter >= 0.0 ||
+         std::isfinite(blocks.integrator_zone) || std::isfinite(blocks.integrator_leak) ||
+         std::isfinite(blocks.derivative_cutoff) || !blocks.filters.empty() ||
+         blocks.observer.bandwidth > 0.0 || blocks.error_deadband.band > 0.0 || blocks.hold.enter >= 0.0 ||
+         blocks.standstill.band >= 0.0 || never_settles(parameters);
 }
 
 bool needs_lane_drive(const trial::TrialParameters& p) {
-  [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = p.disturbance;
+  const trial::DisturbanceParameters& disturbance = p.disturbance;
   return p.controller.delay > 0.0 || p.controller.jitter > 0.0 || p.amplifier.bandwidth > 0.0 ||
-         !ripple.empty() || !vibration.empty() || !spectra.empty();
+         !disturbance.ripple.empty() || !disturbance.vibration.empty() || !disturbance.spectra.empty();
 }
 
 bool needs_lane_noise(const trial::TrialParameters& p) {

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "analysis/basis/parallel/parallel.hpp"
 #include "analysis/basis/parallel/processors.hpp"
-#include "analysis/basis/text/report_json.hpp"
 #include "analysis/basis/text/text.hpp"
 #include "analysis/trials/theory/plausibility.hpp"
-#include "experiments/manifest/json_schema.hpp"
 #include "experiments/yaml/problems.hpp"
 #include "results/layout/header.hpp"
 #include "runners/command_line/command_line.hpp"
@@ -27,36 +24,6 @@
 #include "runners/terminal/terminal.hpp"
 
 namespace zerocount::program {
-
-namespace {
-
-/// Types of the answers that all commands give, for their schemas.
-std::vector<document::AnswerType> answer_types() {
-  std::vector<document::AnswerType> types;
-  for (const commands::Command& command : commands()) {
-    if (command.answers == nullptr) continue;
-    for (document::AnswerType& type : command.answers()) types.push_back(std::move(type));
-  }
-  return types;
-}
-
-ExitCode print_schema(const command_line::Arguments& arguments) {
-  standard_output::write(text::json_text(arguments.has("answers") ? document::json_schema(answer_types())
-                                                                  : manifest::json_schema()));
-  return ExitCode::success;
-}
-
-}  // namespace
-
-commands::Command schema_command() {
-  return {
-      {"schema", "", {{"answers", "", "the schema of what the commands answer with --format json"}}, 0, 0},
-      "print the JSON Schema of manifests, for editors, or of answers",
-      "Example: zerocount schema > zerocount.schema.json, and in the manifest's first line\n"
-      "  # yaml-language-server: $schema=zerocount.schema.json\n",
-      print_schema};
-}
-
 namespace {
 
 std::string exit_codes_help() {

@@ -15,7 +15,6 @@
 #include "analysis/basis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/basis/statistics/distributions.hpp"
 #include "analysis/basis/statistics/sums/moments.hpp"
-#include "analysis/basis/text/text.hpp"
 #include "analysis/trials/goal/goal_text.hpp"
 #include "analysis/trials/goal/question.hpp"
 #include "analysis/trials/goal/question_text.hpp"
@@ -23,7 +22,6 @@
 #include "analysis/trials/measures/trial_value.hpp"
 #include "analysis/trials/summary/cells_of_point.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::summary {
@@ -215,186 +213,6 @@ std::string competition_text(const StudySummary& summary, const ChosenPoint& cho
                         end.lowest ? "lowest" : "highest", end.lowest ? "lower" : "higher");
   }
   return text;
-}
-
-namespace {
-
-/// Whether a swept parameter differs between any two points, or has a distribution at a point (shown by NaN).
-bool varies(const study::SweepAxis& axis) {
-  const auto differs = [](const auto& values) {
-    return std::any_of(values.begin(), values.end(), [&](const auto& v) { return !(v == values.front()); });
-  };
-  return axis.kind == study::SweepAxis::Kind::text ? differs(axis.texts) : differs(axis.numbers);
-}
-
-std::string last_parts(const std::string& path, std::size_t parts) {
-  std::size_t start = path.size();
-  for (; parts > 0 && start != std::string::npos && start > 0; --parts) start = path.rfind('.', start - 1);
-  return start == std::string::npos ? path : path.substr(start + 1);
-}
-
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
-
-}  // namespace
-
-std::vector<const study::SweepAxis*> varying_parameters(std::span<const study::SweepAxis> axes) {
-  std::vector<const study::SweepAxis*> found;
-  for (const study::SweepAxis& axis : axes) {
-    if (axis.name != "case" && varies(axis)) found.push_back(&axis);
-  }
-  return found;
-}
-
-std::string short_name(std::span<const study::SweepAxis> axes, const study::SweepAxis& axis) {
-  const std::vector<const study::SweepAxis*> swept = varying_parameters(axes);
-  const auto sections = std::count(axis.name.begin(), axis.name.end(), '.');
-  for (std::size_t parts = 1; parts <= static_cast<std::size_t>(sections); ++parts) {
-    std::string name = last_parts(axis.name, parts);
-    const bool is_index = name.find_first_not_of("0123456789.") == std::string::npos;
-    const bool unique = std::none_of(swept.begin(), swept.end(), [&](const study::SweepAxis* other) {
-      return other->name != axis.name && last_parts(other->name, parts) == name;
-    });
-    if (unique && !is_index) return name;
-  }
-  return axis.name;
-}
-
-std::vector<std::string> short_labels(std::vector<std::string> labels,
-                                      std::span<const study::SweepAxis> axes) {
-  for (const study::SweepAxis& axis : axes) {
-    const std::string name = short_name(axes, axis);
-    for (std::string& label : labels) {
-      replace_all(label, ", " + axis.name + "=", " " + name + "=");
-      if (label.starts_with(axis.name + "=")) label.replace(0, axis.name.size(), name);
-    }
-  }
-  return labels;
-}
-
-std::vector<std::string> point_names(const StudySummary& summary) {
-  std::vector<std::string> names = short_labels(summary.labels, summary.axes);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    names[i] = names[i] == summary.labels[i] ? text::printable(names[i])
-                                             : fmt::format("{} ({})", i, text::printable(names[i]));
-  return names;
-}
-
-namespace {
-
-const measures::PointSummary& statistics_of(const StudySummary& summary, std::int64_t point) {
-  return summary.points[static_cast<std::size_t>(point)];
-}
-
-/// The goal that belongs to the worst claim of the verdict.
-const study::Goal& worst_goal(const StudySummary& summary, const goal::Verdict& verdict) {
-  return *summary.question.parts[verdict.goal].goal;
-}
-
-/// Names of the goals that are missed: "'large' and 'small'". Empty if fewer than two are missed.
-std::string missed_goals(const goal::Question& question, const goal::Verdict& verdict) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < question.parts.size(); ++i) {
-    if (worst_of_goal(verdict, i).status == goal::Status::missed)
-      names.push_back(fmt::format("'{}'", question.parts[i].goal->name));
-  }
-  if (names.size() < 2) return "";
-  const std::string last = names.back();
-  names.pop_back();
-  return fmt::format("{} and {}", fmt::join(names, ", "), last);
-}
-
-std::size_t points_of(const ChosenPoint& chosen) {
-  return static_cast<std::size_t>(chosen.chosen_from);
-}
-
-}  // namespace
-
-JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) {
-  JudgedPoint judged{chosen, {}, {}};
-  const std::size_t points = points_of(chosen);
-  const measures::PointSummary& statistics = statistics_of(summary, chosen.point);
-  judged.verdict = verdict_on(summary.question, statistics, points);
-  if (judged.verdict.status == goal::Status::undecided)
-    judged.needs = needs_of(summary.question, statistics, points);
-  return judged;
-}
-
-std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged) {
-  const goal::Question& question = summary.question;
-  const std::string name = name_of_chosen(summary, judged.chosen);
-  const std::string under = under_text(question, judged.verdict.setting);
-  const study::Goal& goal = worst_goal(summary, judged.verdict);
-  const std::string worst =
-      (has_several(question) ? fmt::format(" '{}'", goal.name) : "") + goal::of_mass(goal);
-  switch (judged.verdict.status) {
-    case goal::Status::met:
-      if (has_several(question))
-        return fmt::format("{}: all {} goals are met,{} by the least{}", name, question.parts.size(), worst,
-                           under);
-      return fmt::format("{}: the goal{} is met{}", name, worst,
-                         under.empty() ? "" : ", by the least" + under);
-    case goal::Status::missed:
-      if (const std::string all = missed_goals(question, judged.verdict); !all.empty())
-        return fmt::format("{}: the goals {} are missed,{} by the most{}", name, all, worst, under);
-      return fmt::format("{}: the goal{} is missed{}", name, worst, under);
-    case goal::Status::undecided:
-      break;
-  }
-  return fmt::format("{}: it is undecided whether the goal{} is met{}", name, worst, under);
-}
-
-std::string judgement_details(const StudySummary& summary, const JudgedPoint& judged) {
-  const ChosenPoint& chosen = judged.chosen;
-  std::string text = goal::goals_text(summary.question, statistics_of(summary, chosen.point), judged.verdict);
-  if (chosen.chosen_from > 1) text += "  the bounds allow for the choice of the point by these trials\n";
-  if (const auto worlds = worlds_of_point(summary, chosen.point, points_of(chosen)))
-    text += fmt::format(
-        "  {}\n", bad_worlds_sentence(*worlds, world_inputs_of(summary, chosen.point), summary.question));
-  if (judged.needs)
-    text += fmt::format("  {}\n", goal::needs_sentence(worst_goal(summary, judged.verdict), *judged.needs,
-                                                       summary.features.machines));
-  return text + competition_text(summary, chosen);
-}
-
-std::string judgement_text(const StudySummary& summary, const JudgedPoint& judged) {
-  return fmt::format("goal: {}\n{}\n{}", goal::claim_sentence(summary.question),
-                     judgement_headline(summary, judged), judgement_details(summary, judged));
-}
-
-std::optional<SaturatedMoves> saturated_moves(const std::filesystem::path& path, const study::Study& study,
-                                              const JudgedClaim& claim) {
-  if (layout::has_sums(study.retention)) return {};
-  const reading::AllTrialsFile all(path);
-  const reading::AllTrialsFile file = all.in_setting(static_cast<std::int64_t>(claim.setting));
-  const measures::MoveCriterion goal = measures::move_criteria_of(study)[claim.goal];
-  const std::int64_t trials = file.header().trials;
-  SaturatedMoves counts;
-  measures::visit_trials(file, {claim.point * trials, trials}, [&](std::int64_t, const auto& moves) {
-    for (const trial::MoveOutcome& move : moves) {
-      if (!measures::asks(goal, move)) continue;
-      const bool met = measures::meets(goal, move);
-      ++(met ? counts.met : counts.missed);
-      if (move.saturated) ++(met ? counts.met_saturated : counts.missed_saturated);
-    }
-  });
-  return counts;
-}
-
-std::string saturation_sentence(const SaturatedMoves& moves) {
-  constexpr double most = 0.5;
-  constexpr double more = 0.1;  // of the moves: both kinds saturate alike where long moves accelerate
-  if (moves.missed == 0 || moves.of_missed() < most) return "";
-  if (moves.met > 0 && moves.of_missed() - moves.of_met() < more) return "";
-  const std::string others =
-      moves.met > 0 ? fmt::format(" (of the {} others {})", moves.met, moves.met_saturated) : "";
-  return fmt::format(
-      "  of the {} moves that miss the goal {} saturate{}: the converter clips the torque that the "
-      "controller "
-      "wants, and its range may be the cause\n",
-      moves.missed, moves.missed_saturated, others);
 }
 
 }  // namespace zerocount::summary

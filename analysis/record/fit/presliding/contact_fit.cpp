@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "analysis/record/fit/observations.hpp"
 #include "analysis/record/fit/presliding/starting_point.hpp"
@@ -13,7 +10,6 @@
 #include "core/failure/failure.hpp"
 
 namespace zerocount::fit {
-
 namespace {
 
 /// Largest ratio of the rotor's rate to the sampling rate at which the fits of slow parts start. A faster
@@ -415,173 +411,6 @@ bool improve_softening(Records records, ContactFit& fit) {
   for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0})
     changes.push_back(change_of({{log_beta, shift}, {log_k2, shift}}));
   return improve_from(records, changes, fit);
-}
-
-namespace {
-
-/// Largest root mean square of the residuals that is accepted, as a fraction of a record's travel.
-constexpr double max_unexplained = 0.02;
-
-/// Largest accepted spread of the residuals, as a multiple of the expected one.
-constexpr double max_spread = 30.0;
-
-/// Sentence that tells the user that the search stopped at its effort limit; empty if it did not.
-std::string early_end_text(const ContactFit& fit) {
-  if (!has_ended_early(fit)) return "";
-  return ". " + left_out_text(fit.effort);
-}
-
-}  // namespace
-
-std::string left_out_text(double effort) {
-  return fmt::format("Other starting points were left out to save time: --effort {:g} tries more of them",
-                     4.0 * effort);
-}
-
-void refuse_glitches(Records records, const FitPoint& point, const FitSetting& setting) {
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const TestRecord& record = records[r];
-    Eigen::VectorXd path = modelled_path(record, setting.model, point.axis);
-    path.array() += point.offset[static_cast<Eigen::Index>(r)];
-    const std::optional<std::size_t> glitch = find_glitch(record, path);
-    if (!glitch) continue;
-    refuse(record.axis, record.name,
-           fmt::format(
-               "the reading at sample {} ({:.6g} s) is off by {:.3g} $rad, those before and after it are "
-               "not, probably a read error. Replace it by a neighbouring value, or shorten the record",
-               *glitch, static_cast<double>(*glitch) * record.sample_time,
-               (record.reading[*glitch] - path[static_cast<Eigen::Index>(*glitch)]) * record.unit));
-  }
-}
-
-void refuse_unexplained(Records records, const ContactFit& fit, double tolerance) {
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const auto [low, high] = std::minmax_element(records[r].reading.begin(), records[r].reading.end());
-    const double allowed = std::max(records[r].counted ? 2.0 : 0.0, max_unexplained * (*high - *low));
-    const double misfit = misfit_of(records, fit, r);
-    if (misfit <= tolerance * allowed) continue;
-    const std::size_t sample = largest_misfit_growth(records[r], fit.model.motions[r].path);
-    refuse(records[r].axis, records[r].name,
-           fmt::format(
-               "the pre-sliding model does not explain this record: its residuals are {:.3g} $rad (root "
-               "mean square) of a travel of {:.3g} $rad, and grow most at {:.4g} s. Did the axis slide, "
-               "was the $torque clipped, did the contact start in another state than was stated? --model "
-               "all compares other friction laws{}",
-               misfit * records[r].unit, (*high - *low) * records[r].unit,
-               static_cast<double>(sample) * records[r].sample_time, early_end_text(fit)));
-  }
-}
-
-void refuse_gross_misfit(Records records, const ContactFit& fit, const ResidualChecks& checks,
-                         const std::string& cause) {
-  if (!(checks.spread > max_spread * checks.expected_spread)) return;
-  std::size_t worst = 0;
-  for (std::size_t r = 1; r < records.size(); ++r)
-    if (misfit_of(records, fit, r) > misfit_of(records, fit, worst)) worst = r;
-  const std::size_t sample = largest_misfit_growth(records[worst], fit.model.motions[worst].path);
-  refuse(records[worst].axis, records[worst].name,
-         fmt::format(
-             "the pre-sliding model does not explain the records: the residuals are {:.0f} times those that "
-             "the encoder's steps and noise give, and grow most at {:.4g} s of this record. Does a record "
-             "begin under load, is the $torque delayed against the $angle (--delay), did the axis slide? "
-             "{}--model all compares other friction laws{}",
-             checks.spread / checks.expected_spread, static_cast<double>(sample) * records[worst].sample_time,
-             cause.empty() ? "" : cause + ". ", early_end_text(fit)));
-}
-
-namespace {
-
-/// A part of a record with constant torque in which the rotor creeps.
-struct CreepingHold {
-  double torque{0.0};  ///< Magnitude of the torque, N m.
-  /// Fitted creep travel from a quarter of the hold to its end, in units of the readings.
-  double creep{0.0};
-};
-
-std::vector<CreepingHold> creeping_holds(Records records, const ContactFit& fit) {
-  std::vector<CreepingHold> holds;
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const Eigen::VectorXd& path = fit.model.motions[r].path;
-    for (const TorqueHold& hold : records[r].parts.holds) {
-      const std::size_t settled = hold.first + (hold.last - hold.first) / 4;
-      const double creep =
-          path[static_cast<Eigen::Index>(hold.last)] - path[static_cast<Eigen::Index>(settled)];
-      holds.push_back({std::abs(hold.torque), std::abs(creep)});
-    }
-  }
-  return holds;
-}
-
-std::string of_spring(const ContactFit& fit, Records records) {
-  const double softening = std::exp(-fit.model.point.axis[log_beta]) / records.front().unit;
-  return fmt::format(
-      "the readings show too little of how the spring softens after a reversal (within about "
-      "{:.2g} of their steps): reverse more often, or read finer",
-      softening);
-}
-
-std::string of_ring_down(Records records) {
-  if (std::none_of(records.begin(), records.end(),
-                   [](const TestRecord& record) { return record.parts.ring_downs() > 0; })) {
-    return "there is no ring-down: the $torque never steps (by 5 % of its range within 8 samples) and then "
-           "stays";
-  }
-  return "the ring-downs are too small, or die out too fast for the sampling, to show it";
-}
-
-std::string of_creep(const std::vector<CreepingHold>& holds, Coordinate coordinate) {
-  if (holds.empty())
-    return "the $torque is never held (for 20 samples or more), and so creep is not seen alone";
-  double max_creep = 0.0;
-  for (const CreepingHold& hold : holds) max_creep = std::max(max_creep, hold.creep);
-  constexpr double min_creep = 2.0;
-  if (max_creep < min_creep) {
-    return fmt::format("the axis creeps by {:.2g} steps of the readings at most while the torque is held",
-                       max_creep);
-  }
-  double low = 0.0;
-  double high = 0.0;
-  for (const CreepingHold& hold : holds) {
-    if (hold.creep < min_creep) continue;
-    if (low == 0.0 || hold.torque < low) low = hold.torque;
-    high = std::max(high, hold.torque);
-  }
-  constexpr double one_level = 1.1;
-  if (coordinate != log_alpha && high < one_level * low) {
-    return fmt::format("creep is seen at one $torque only, {:.3g} $Nm: hold another, or give friction.n",
-                       high);
-  }
-  return "the holds are too short, or too much alike, to show the course of creep";
-}
-
-std::string of_time_offset() {
-  return "the $torque changes too slowly for the readings to show it: record a step, or give it with "
-         "--fix time_offset=0";
-}
-
-std::string missing(Records records, const ContactFit& fit, Coordinate coordinate) {
-  switch (coordinate) {
-    case log_k1:
-    case log_k2:
-    case log_beta:
-      return of_spring(fit, records);
-    case log_damping:
-    case log_inertia:
-      return of_ring_down(records);
-    case log_alpha:
-    case log_limit:
-    case creep_exponent:
-      break;
-    case time_offset:
-      return of_time_offset();
-  }
-  return of_creep(creeping_holds(records, fit), coordinate);
-}
-
-}  // namespace
-
-std::string missing_information(Records records, const ContactFit& fit, Coordinate coordinate) {
-  return parameters::text_on(records.front().axis, missing(records, fit, coordinate));
 }
 
 }  // namespace zerocount::fit

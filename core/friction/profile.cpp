@@ -11,21 +11,6 @@
 #include "core/numerics/roots.hpp"
 
 namespace zerocount::friction {
-
-double field_at(const Profile& profile, double position) {
-  // exp(imθ) by repeated multiplication: one sine and one cosine whatever the number of harmonics. The
-  // rounding grows like m·2⁻⁵³, which is far below any spread a profile can have.
-  const double angle = position * (2.0 * std::numbers::pi / profile.period);
-  const std::complex<double> turn{numerics::cos(angle), numerics::sin(angle)};
-  std::complex<double> harmonic{1.0, 0.0};
-  double field = 0.0;
-  for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
-    field += profile.cosine[m] * harmonic.real() + profile.sine[m] * harmonic.imag();
-    harmonic *= turn;
-  }
-  return field;
-}
-
 namespace {
 
 /// The normally distributed value behind the friction parameter: the value itself (normal), or its logarithm
@@ -34,25 +19,6 @@ namespace {
 double normal_value(const Profile& profile, double field) {
   return profile.location + profile.scale * field;
 }
-
-}  // namespace
-
-Profile scaled(Profile profile, double factor) {
-  if (profile.marginal == Marginal::lognormal) {
-    profile.location += numerics::log_of_draws(factor);
-  } else {
-    profile.location *= factor;
-    profile.scale *= factor;
-  }
-  return profile;
-}
-
-double value_at(const Profile& profile, double position) {
-  const double value = normal_value(profile, field_at(profile, position));
-  return profile.marginal == Marginal::lognormal ? numerics::exp_of_draws(value) : value;
-}
-
-namespace {
 
 constexpr std::size_t block_size = 16;
 using Block = std::array<double, block_size>;
@@ -159,6 +125,35 @@ double refined(const Profile& profile, double position, double spacing, double s
 }
 
 }  // namespace
+
+double field_at(const Profile& profile, double position) {
+  // exp(imθ) by repeated multiplication: one sine and one cosine whatever the number of harmonics. The
+  // rounding grows like m·2⁻⁵³, which is far below any spread a profile can have.
+  const double angle = position * (2.0 * std::numbers::pi / profile.period);
+  const std::complex<double> turn{numerics::cos(angle), numerics::sin(angle)};
+  std::complex<double> harmonic{1.0, 0.0};
+  double field = 0.0;
+  for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
+    field += profile.cosine[m] * harmonic.real() + profile.sine[m] * harmonic.imag();
+    harmonic *= turn;
+  }
+  return field;
+}
+
+Profile scaled(Profile profile, double factor) {
+  if (profile.marginal == Marginal::lognormal) {
+    profile.location += numerics::log_of_draws(factor);
+  } else {
+    profile.location *= factor;
+    profile.scale *= factor;
+  }
+  return profile;
+}
+
+double value_at(const Profile& profile, double position) {
+  const double value = normal_value(profile, field_at(profile, position));
+  return profile.marginal == Marginal::lognormal ? numerics::exp_of_draws(value) : value;
+}
 
 double lowest_over_revolution(const Profile& profile) {
   const ExtremePositions extremes = find_extremes(profile);

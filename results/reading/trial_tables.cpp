@@ -57,6 +57,45 @@ std::int64_t first_not_below(const hdf5::RowSource& numbers, std::int64_t size, 
   });
 }
 
+/// Decodes the records of some rows from columns, [row][record], flattened.
+/// @param skipped_rows rows in the columns before the first.
+/// @param width number of records in a row.
+template <class Record>
+std::vector<Record> records_at(const std::vector<layout::RecordField<Record>>& fields,
+                               const OutcomeColumns::Columns& columns, std::int64_t skipped_rows,
+                               std::int64_t rows, std::int64_t width) {
+  std::vector<Record> records(static_cast<std::size_t>(rows * width));
+  layout::scatter_all(fields, columns, static_cast<std::size_t>(skipped_rows * width), std::span(records));
+  return records;
+}
+
+constexpr std::int64_t moves_of_part = 1024;
+
+/// Calls work(part) for successive parts of the positions, of `size` each, several at a time on several
+/// threads. If several parts throw, the exception of the first of these parts is thrown, whichever ends
+/// first.
+template <class Work>
+void for_each_part(layout::RowRange positions, std::int64_t size, const Work& work) {
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>((positions.count + size - 1) / size));
+  const auto run = [&](std::size_t i) {
+    const std::int64_t first = positions.first + static_cast<std::int64_t>(i) * size;
+    try {
+      work(layout::RowRange{first, std::min(size, positions.end() - first)});
+    } catch (...) {
+      failures[i] = std::current_exception();
+    }
+  };
+  // A thread that waits here must not begin another task meanwhile.
+  if (failures.size() == 1) {
+    run(0);
+  } else {
+    oneapi::tbb::this_task_arena::isolate(
+        [&] { oneapi::tbb::parallel_for(std::size_t{0}, failures.size(), run); });
+  }
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
 }  // namespace
 
 trial::ErrorBands read_bands(const hdf5::File& file) {
@@ -178,49 +217,6 @@ OutcomeColumns TrialTables::decoded(const StoredOutcomes& stored) const {
   if (tolerances_) columns.tolerances = layout::decode_columns(*tolerances_, stored.tolerances);
   return columns;
 }
-
-namespace {
-
-/// Decodes the records of some rows from columns, [row][record], flattened.
-/// @param skipped_rows rows in the columns before the first.
-/// @param width number of records in a row.
-template <class Record>
-std::vector<Record> records_at(const std::vector<layout::RecordField<Record>>& fields,
-                               const OutcomeColumns::Columns& columns, std::int64_t skipped_rows,
-                               std::int64_t rows, std::int64_t width) {
-  std::vector<Record> records(static_cast<std::size_t>(rows * width));
-  layout::scatter_all(fields, columns, static_cast<std::size_t>(skipped_rows * width), std::span(records));
-  return records;
-}
-
-constexpr std::int64_t moves_of_part = 1024;
-
-/// Calls work(part) for successive parts of the positions, of `size` each, several at a time on several
-/// threads. If several parts throw, the exception of the first of these parts is thrown, whichever ends
-/// first.
-template <class Work>
-void for_each_part(layout::RowRange positions, std::int64_t size, const Work& work) {
-  std::vector<std::exception_ptr> failures(static_cast<std::size_t>((positions.count + size - 1) / size));
-  const auto run = [&](std::size_t i) {
-    const std::int64_t first = positions.first + static_cast<std::int64_t>(i) * size;
-    try {
-      work(layout::RowRange{first, std::min(size, positions.end() - first)});
-    } catch (...) {
-      failures[i] = std::current_exception();
-    }
-  };
-  // A thread that waits here must not begin another task meanwhile.
-  if (failures.size() == 1) {
-    run(0);
-  } else {
-    oneapi::tbb::this_task_arena::isolate(
-        [&] { oneapi::tbb::parallel_for(std::size_t{0}, failures.size(), run); });
-  }
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
-}
-
-}  // namespace
 
 std::vector<trial::MoveOutcome> TrialTables::outcomes(const OutcomeColumns& columns,
                                                       layout::RowRange positions) const {

@@ -21,7 +21,6 @@
 #include "results/storage/output_file.hpp"
 
 namespace zerocount::shards {
-
 namespace {
 
 void require_fit(const study::Study& study, layout::RowRange rows, const TrialColumns& columns,
@@ -69,6 +68,29 @@ class Encoding {
   EncodedShard& shard_;
   std::vector<hdf5::RowsToEncode> rows_;
 };
+
+namespace fs = std::filesystem;
+
+void require_fit(const study::Study& study, std::span<const TrialResult> trials) {
+  for (const TrialResult& trial : trials) {
+    if (trial.inputs.size() != study.columns.inputs.size() || std::ssize(trial.outcome.moves) != study.moves)
+      throw std::invalid_argument(fmt::format("the result for row {} does not fit the study", trial.row));
+  }
+}
+
+/// The regular files in `directory` whose names end in one of the extensions, sorted by name.
+std::vector<fs::path> files_in(const fs::path& directory, std::initializer_list<const char*> extensions) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code unknown;  // ignored: a vanished entry or a broken link is not a regular file
+    if (std::ranges::count(extensions, entry->path().extension()) > 0 && entry->is_regular_file(unknown))
+      files.push_back(entry->path());
+  }
+  if (error) storage::fail_with(directory, "read the directory", error.value());
+  std::sort(files.begin(), files.end());
+  return files;
+}
 
 }  // namespace
 
@@ -119,33 +141,6 @@ void store_shard(const std::filesystem::path& path, const EncodedShard& shard) {
   file.finish_with_checksum();
   file.publish();
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-void require_fit(const study::Study& study, std::span<const TrialResult> trials) {
-  for (const TrialResult& trial : trials) {
-    if (trial.inputs.size() != study.columns.inputs.size() || std::ssize(trial.outcome.moves) != study.moves)
-      throw std::invalid_argument(fmt::format("the result for row {} does not fit the study", trial.row));
-  }
-}
-
-/// The regular files in `directory` whose names end in one of the extensions, sorted by name.
-std::vector<fs::path> files_in(const fs::path& directory, std::initializer_list<const char*> extensions) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
-    std::error_code unknown;  // ignored: a vanished entry or a broken link is not a regular file
-    if (std::ranges::count(extensions, entry->path().extension()) > 0 && entry->is_regular_file(unknown))
-      files.push_back(entry->path());
-  }
-  if (error) storage::fail_with(directory, "read the directory", error.value());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-}  // namespace
 
 fs::path shard_path(const fs::path& directory, layout::RowRange rows) {
   return directory / fmt::format("trials-{:012}-{:012}.shard", rows.first, rows.end() - 1);

@@ -15,46 +15,6 @@
 #include "core/random/random_numbers.hpp"
 
 namespace zerocount::fit {
-
-ReplicateNoise::ReplicateNoise(std::size_t replicate) : replicate_(replicate) {}
-
-double ReplicateNoise::next() {
-  // An arbitrary but constant key, so that results are reproducible.
-  constexpr random::RandomStream stream{{0x1d3a71f1U, 0xca710bb5U}, 0};
-  return random::standard_normal(random::random_bits(stream, replicate_, draw_++));
-}
-
-Eigen::VectorXd ReplicateNoise::next(Eigen::Index size) {
-  return Eigen::VectorXd::NullaryExpr(size, [this] { return next(); });
-}
-
-Eigen::VectorXd read_path(const TestRecord& record, const Eigen::VectorXd& path, double noise,
-                          ReplicateNoise& random) {
-  Eigen::VectorXd readings = path;
-  if (noise > 0.0) readings += noise * random.next(path.size());
-  if (record.counted) readings = readings.array().floor();
-  return readings;
-}
-
-ResidualStatistics residual_statistics(const std::vector<double>& residuals) {
-  ResidualStatistics statistics;
-  statistics.observations = residuals.size();
-  for (const double residual : residuals) statistics.squares += residual * residual;
-  if (residuals.empty()) return statistics;
-  statistics.runs = 1.0;
-  for (std::size_t i = 1; i < residuals.size(); ++i) {
-    if (std::signbit(residuals[i]) != std::signbit(residuals[i - 1])) statistics.runs += 1.0;
-  }
-  if (statistics.squares == 0.0) return statistics;
-  for (std::size_t lag = 1; lag < residuals.size() / 4; ++lag) {
-    double product = 0.0;
-    for (std::size_t i = lag; i < residuals.size(); ++i) product += residuals[i] * residuals[i - lag];
-    if (product <= 0.0) break;
-    statistics.correlation_length += 2.0 * product / statistics.squares;
-  }
-  return statistics;
-}
-
 namespace {
 
 /// Normalised residuals (observed − modelled angle)/√variance of all observations along the paths, plus the
@@ -77,57 +37,6 @@ std::vector<double> residuals_along(const FittedModel& model, const std::vector<
   }
   return residuals;
 }
-
-}  // namespace
-
-ResidualStatistics residual_statistics(const FittedModel& model, const Observations& observations) {
-  std::vector<Eigen::VectorXd> paths;
-  for (const RecordMotion& motion : model.motions) paths.push_back(motion.path);
-  return residual_statistics(residuals_along(model, paths, observations, {}));
-}
-
-ReadingReplicates replicate_readings(Records records, const Fit& fit, std::size_t replicates,
-                                     std::size_t first) {
-  const auto& [setting, model, noise, last_observations] = fit;
-  const Observations observations = observations_along(records, model, noise);
-  const Eigen::MatrixXd matrix = normal_equations(model, observations, setting).matrix;
-  const Eigen::MatrixXd root = numerics::cholesky_factor(matrix);
-
-  const Eigen::Index dimension = dimension_of(setting.model);
-  ReadingReplicates result;
-  result.errors.resize(static_cast<Eigen::Index>(replicates), matrix.rows());
-  result.residuals.resize(replicates);
-  parallel::for_each_index(replicates, [&](std::size_t i) {
-    ReplicateNoise random(first + i);
-    // The textbook covariance is matrix⁻¹. With matrix = L·Lᵀ, L⁻ᵀz has this covariance.
-    const Eigen::VectorXd away =
-        truth_spread * numerics::solve_transposed_factor(root, random.next(matrix.rows()));
-    NormalEquationsSum sum(records.size(), setting);
-    Observations read(records.size());
-    std::vector<Eigen::VectorXd> paths;
-    for (std::size_t r = 0; r < records.size(); ++r) {
-      const RecordMotion& motion = model.motions[r];
-      Eigen::VectorXd& path = paths.emplace_back(motion.path);
-      path.noalias() += motion.sensitivity * away.head(dimension);
-      path.array() += away[dimension + static_cast<Eigen::Index>(r)];
-      const Eigen::VectorXd readings = read_path(records[r], path, noise[r], random);
-      observe(records[r], path, readings, noise[r], read[r]);
-      sum.add(r, read[r], path, motion.sensitivity);
-    }
-    NormalEquations equations = sum.with_prior(setting.prior);
-    // The error of the prior is drawn too: coordinates that only the prior determines keep its uncertainty.
-    for (Eigen::Index j = 0; j < dimension; ++j) {
-      if (setting.free[static_cast<std::size_t>(j)])
-        equations.gradient[j] += random.next() / setting.prior_spread;
-    }
-    const Eigen::VectorXd error = numerics::solve_positive_definite(equations.matrix, equations.gradient);
-    result.errors.row(static_cast<Eigen::Index>(i)) = error;
-    result.residuals[i] = residual_statistics(residuals_along(model, paths, read, error));
-  });
-  return result;
-}
-
-namespace {
 
 constexpr Eigen::Index longest_window = 1024;
 constexpr Eigen::Index shortest_window = 64;
@@ -252,7 +161,113 @@ bool is_narrow(const Eigen::ArrayXd& power, const Eigen::ArrayXd& usual,
   return near >= 0.5 * excess.sum();
 }
 
+constexpr double min_chance = 0.01;
+
+double spread_of(const ResidualStatistics& residuals) {
+  return std::sqrt(residuals.squares / static_cast<double>(residuals.observations));
+}
+
+/// Estimated p-value: proportion of the replicates for which `extreme` holds, with the record itself counted
+/// as one of them.
+template <class Extreme>
+double proportion(const std::vector<ResidualStatistics>& replicates, Extreme extreme) {
+  const auto count = std::count_if(replicates.begin(), replicates.end(), extreme);
+  return static_cast<double>(count + 1) / static_cast<double>(replicates.size() + 1);
+}
+
+/// Standard deviation of normally distributed residuals, estimated from the median of their magnitudes.
+double robust_deviation(const std::vector<double>& magnitudes) {
+  constexpr double deviation_over_median = 1.4826;
+  return deviation_over_median * statistics::upper_median(magnitudes);
+}
+
 }  // namespace
+
+ReplicateNoise::ReplicateNoise(std::size_t replicate) : replicate_(replicate) {}
+
+double ReplicateNoise::next() {
+  // An arbitrary but constant key, so that results are reproducible.
+  constexpr random::RandomStream stream{{0x1d3a71f1U, 0xca710bb5U}, 0};
+  return random::standard_normal(random::random_bits(stream, replicate_, draw_++));
+}
+
+Eigen::VectorXd ReplicateNoise::next(Eigen::Index size) {
+  return Eigen::VectorXd::NullaryExpr(size, [this] { return next(); });
+}
+
+Eigen::VectorXd read_path(const TestRecord& record, const Eigen::VectorXd& path, double noise,
+                          ReplicateNoise& random) {
+  Eigen::VectorXd readings = path;
+  if (noise > 0.0) readings += noise * random.next(path.size());
+  if (record.counted) readings = readings.array().floor();
+  return readings;
+}
+
+ResidualStatistics residual_statistics(const std::vector<double>& residuals) {
+  ResidualStatistics statistics;
+  statistics.observations = residuals.size();
+  for (const double residual : residuals) statistics.squares += residual * residual;
+  if (residuals.empty()) return statistics;
+  statistics.runs = 1.0;
+  for (std::size_t i = 1; i < residuals.size(); ++i) {
+    if (std::signbit(residuals[i]) != std::signbit(residuals[i - 1])) statistics.runs += 1.0;
+  }
+  if (statistics.squares == 0.0) return statistics;
+  for (std::size_t lag = 1; lag < residuals.size() / 4; ++lag) {
+    double product = 0.0;
+    for (std::size_t i = lag; i < residuals.size(); ++i) product += residuals[i] * residuals[i - lag];
+    if (product <= 0.0) break;
+    statistics.correlation_length += 2.0 * product / statistics.squares;
+  }
+  return statistics;
+}
+
+ResidualStatistics residual_statistics(const FittedModel& model, const Observations& observations) {
+  std::vector<Eigen::VectorXd> paths;
+  for (const RecordMotion& motion : model.motions) paths.push_back(motion.path);
+  return residual_statistics(residuals_along(model, paths, observations, {}));
+}
+
+ReadingReplicates replicate_readings(Records records, const Fit& fit, std::size_t replicates,
+                                     std::size_t first) {
+  const auto& [setting, model, noise, last_observations] = fit;
+  const Observations observations = observations_along(records, model, noise);
+  const Eigen::MatrixXd matrix = normal_equations(model, observations, setting).matrix;
+  const Eigen::MatrixXd root = numerics::cholesky_factor(matrix);
+
+  const Eigen::Index dimension = dimension_of(setting.model);
+  ReadingReplicates result;
+  result.errors.resize(static_cast<Eigen::Index>(replicates), matrix.rows());
+  result.residuals.resize(replicates);
+  parallel::for_each_index(replicates, [&](std::size_t i) {
+    ReplicateNoise random(first + i);
+    // The textbook covariance is matrix⁻¹. With matrix = L·Lᵀ, L⁻ᵀz has this covariance.
+    const Eigen::VectorXd away =
+        truth_spread * numerics::solve_transposed_factor(root, random.next(matrix.rows()));
+    NormalEquationsSum sum(records.size(), setting);
+    Observations read(records.size());
+    std::vector<Eigen::VectorXd> paths;
+    for (std::size_t r = 0; r < records.size(); ++r) {
+      const RecordMotion& motion = model.motions[r];
+      Eigen::VectorXd& path = paths.emplace_back(motion.path);
+      path.noalias() += motion.sensitivity * away.head(dimension);
+      path.array() += away[dimension + static_cast<Eigen::Index>(r)];
+      const Eigen::VectorXd readings = read_path(records[r], path, noise[r], random);
+      observe(records[r], path, readings, noise[r], read[r]);
+      sum.add(r, read[r], path, motion.sensitivity);
+    }
+    NormalEquations equations = sum.with_prior(setting.prior);
+    // The error of the prior is drawn too: coordinates that only the prior determines keep its uncertainty.
+    for (Eigen::Index j = 0; j < dimension; ++j) {
+      if (setting.free[static_cast<std::size_t>(j)])
+        equations.gradient[j] += random.next() / setting.prior_spread;
+    }
+    const Eigen::VectorXd error = numerics::solve_positive_definite(equations.matrix, equations.gradient);
+    result.errors.row(static_cast<Eigen::Index>(i)) = error;
+    result.residuals[i] = residual_statistics(residuals_along(model, paths, read, error));
+  });
+  return result;
+}
 
 std::optional<ResidualLine> residual_line(Records records, const FittedModel& model,
                                           const std::vector<double>& noise, const FrequencyRange& own) {
@@ -278,24 +293,6 @@ std::optional<ResidualLine> residual_line(Records records, const FittedModel& mo
   }
   return line;
 }
-
-namespace {
-
-constexpr double min_chance = 0.01;
-
-double spread_of(const ResidualStatistics& residuals) {
-  return std::sqrt(residuals.squares / static_cast<double>(residuals.observations));
-}
-
-/// Estimated p-value: proportion of the replicates for which `extreme` holds, with the record itself counted
-/// as one of them.
-template <class Extreme>
-double proportion(const std::vector<ResidualStatistics>& replicates, Extreme extreme) {
-  const auto count = std::count_if(replicates.begin(), replicates.end(), extreme);
-  return static_cast<double>(count + 1) / static_cast<double>(replicates.size() + 1);
-}
-
-}  // namespace
 
 ResidualChecks check_residuals(const ResidualStatistics& residuals,
                                const std::vector<ResidualStatistics>& replicates) {
@@ -349,16 +346,6 @@ std::string reason_of_misfit(const ResidualChecks& checks) {
                      "would give {:.0f}: the model departs systematically from the records",
                      checks.runs, checks.expected_runs);
 }
-
-namespace {
-
-/// Standard deviation of normally distributed residuals, estimated from the median of their magnitudes.
-double robust_deviation(const std::vector<double>& magnitudes) {
-  constexpr double deviation_over_median = 1.4826;
-  return deviation_over_median * statistics::upper_median(magnitudes);
-}
-
-}  // namespace
 
 Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd& path) {
   Eigen::VectorXd left = readings_of(record).array() + middle_of_reading(record) - path.array();

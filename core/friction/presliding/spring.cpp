@@ -8,7 +8,6 @@
 #include "core/numerics/roots.hpp"
 
 namespace zerocount::friction {
-
 namespace {
 
 /// Softening term 1 − exp(−y) of the hysteresis branch law.
@@ -29,6 +28,33 @@ double least_that(double low, double high, const Condition& holds) {
 bool is_solved(const Softening& softening) {
   return std::isfinite(softening.k2) && softening.k2 > 0.0 && std::isfinite(softening.beta) &&
          softening.beta > 0.0;
+}
+
+SpringBranch branch_from(const FrictionParameters& friction, double elongation, double torque, double sign) {
+  return {elongation, torque, sign, friction.k1, friction.k2 / friction.beta, friction.beta};
+}
+
+SpringBranch virgin_branch(const FrictionParameters& friction, double sign) {
+  return {0.0, 0.0, sign, friction.k1, friction.k2 / (2.0 * friction.beta), 2.0 * friction.beta};
+}
+
+/// The travel u ≥ 0 (rad) along a branch that gives the torque gain `torque` ≥ 0 (N m): k1·u +
+/// softening_torque·(1 − exp(−softening_rate·u)) = torque. The law is increasing and concave, so Newton's
+/// iteration from below rises to the root without passing it; it ends when it no longer rises. It starts at
+/// the root for the constant stiffness of the start, or of the end, of the law, or at `at_least`: itself if
+/// it is above the root.
+double travel_at(const SpringBranch& branch, double torque,
+                 double at_least = -std::numeric_limits<double>::infinity()) {
+  const double stiffest = branch.k1 + branch.softening_torque * branch.softening_rate;
+  double travel = std::max({torque / stiffest, (torque - branch.softening_torque) / branch.k1, at_least});
+  for (;;) {
+    const double softened = -numerics::expm1(-branch.softening_rate * travel);
+    const double missing = torque - branch.k1 * travel - branch.softening_torque * softened;
+    const double stiffness = branch.k1 + branch.softening_torque * branch.softening_rate * (1.0 - softened);
+    const double next = travel + missing / stiffness;
+    if (!(next > travel)) return travel;
+    travel = next;
+  }
 }
 
 }  // namespace
@@ -62,37 +88,6 @@ std::optional<Softening> softening_through(const VirginPoint& first, const Virgi
   const Softening found{early / first.travel * y / softened(y), 0.5 * y / first.travel};
   return is_solved(found) ? std::optional(found) : std::nullopt;
 }
-
-namespace {
-
-SpringBranch branch_from(const FrictionParameters& friction, double elongation, double torque, double sign) {
-  return {elongation, torque, sign, friction.k1, friction.k2 / friction.beta, friction.beta};
-}
-
-SpringBranch virgin_branch(const FrictionParameters& friction, double sign) {
-  return {0.0, 0.0, sign, friction.k1, friction.k2 / (2.0 * friction.beta), 2.0 * friction.beta};
-}
-
-/// The travel u ≥ 0 (rad) along a branch that gives the torque gain `torque` ≥ 0 (N m): k1·u +
-/// softening_torque·(1 − exp(−softening_rate·u)) = torque. The law is increasing and concave, so Newton's
-/// iteration from below rises to the root without passing it; it ends when it no longer rises. It starts at
-/// the root for the constant stiffness of the start, or of the end, of the law, or at `at_least`: itself if
-/// it is above the root.
-double travel_at(const SpringBranch& branch, double torque,
-                 double at_least = -std::numeric_limits<double>::infinity()) {
-  const double stiffest = branch.k1 + branch.softening_torque * branch.softening_rate;
-  double travel = std::max({torque / stiffest, (torque - branch.softening_torque) / branch.k1, at_least});
-  for (;;) {
-    const double softened = -numerics::expm1(-branch.softening_rate * travel);
-    const double missing = torque - branch.k1 * travel - branch.softening_torque * softened;
-    const double stiffness = branch.k1 + branch.softening_torque * branch.softening_rate * (1.0 - softened);
-    const double next = travel + missing / stiffness;
-    if (!(next > travel)) return travel;
-    travel = next;
-  }
-}
-
-}  // namespace
 
 double torque_on(const SpringBranch& branch, double x) {
   const double travel = travel_on(branch, x);

@@ -27,23 +27,6 @@ constexpr std::int64_t counts_per_count = 4;
 constexpr double finer = counts_per_count;
 constexpr double half_a_count = finer / 2.0;
 
-}  // namespace
-
-LoopEncoders encoders_of(const PointEdit& at) {
-  LoopEncoders encoders;
-  const auto add = [&](std::string_view choice) {
-    const ParameterRange range = at.limits(choice);
-    encoders.fine |= range.low == static_cast<double>(loop::EncoderChoice::fine);
-    encoders.coarse |= range.high == static_cast<double>(loop::EncoderChoice::coarse);
-  };
-  add(parameter::controller::encoder);
-  if (study::can_have_coarse_phase(at.limits(parameter::controller::coarse::coarse_beyond)))
-    add(parameter::controller::coarse::encoder);
-  return encoders;
-}
-
-namespace {
-
 void refine(PointEdit& at, std::string_view per_revolution, std::string_view length,
             std::string_view errors) {
   const bool rotary = at.plan().units.axis == parameters::AxisKind::rotary;
@@ -192,6 +175,19 @@ void resample_biquads(trial::TrialParameters& p) {
 }
 
 }  // namespace
+
+LoopEncoders encoders_of(const PointEdit& at) {
+  LoopEncoders encoders;
+  const auto add = [&](std::string_view choice) {
+    const ParameterRange range = at.limits(choice);
+    encoders.fine |= range.low == static_cast<double>(loop::EncoderChoice::fine);
+    encoders.coarse |= range.high == static_cast<double>(loop::EncoderChoice::coarse);
+  };
+  add(parameter::controller::encoder);
+  if (study::can_have_coarse_phase(at.limits(parameter::controller::coarse::coarse_beyond)))
+    add(parameter::controller::coarse::encoder);
+  return encoders;
+}
 
 void add_finer_encoders(const IdealisedPoint& point, const study::Study& study, std::vector<Effect>& all) {
   using enum motion::EncoderPlace;

@@ -164,28 +164,6 @@ void add_outcomes(const Block& block, const trials::Replicates& machines,
   }
 }
 
-}  // namespace
-
-std::vector<std::string> names_of(std::span<const study::FreeParameter> free) {
-  std::vector<std::string> names;
-  for (const study::FreeParameter& one : free) names.push_back(one.name);
-  return names;
-}
-
-std::optional<study::Study> at_values(const study::Study& study, std::span<const study::FreeParameter> free,
-                                      const Values& values) {
-  return trials::with_values(study, names_of(free), values);
-}
-
-std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free, const Values& values) {
-  std::vector<std::string> overrides;
-  for (std::size_t i = 0; i < free.size(); ++i)
-    overrides.push_back(fmt::format("{}={}", free[i].name, values[i]));
-  return overrides;
-}
-
-namespace {
-
 /// Criterion that is a quantile of a measure of the true motion or the position error, such as
 /// rest_torque_noise.p95; nothing if the text names no such measure of the study.
 std::optional<Criterion> motion_criterion(const study::Study& study, std::string_view text) {
@@ -248,6 +226,24 @@ Criterion criterion_of(const study::Study& study, std::size_t goal, const std::s
 }
 
 }  // namespace
+
+std::vector<std::string> names_of(std::span<const study::FreeParameter> free) {
+  std::vector<std::string> names;
+  for (const study::FreeParameter& one : free) names.push_back(one.name);
+  return names;
+}
+
+std::optional<study::Study> at_values(const study::Study& study, std::span<const study::FreeParameter> free,
+                                      const Values& values) {
+  return trials::with_values(study, names_of(free), values);
+}
+
+std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free, const Values& values) {
+  std::vector<std::string> overrides;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    overrides.push_back(fmt::format("{}={}", free[i].name, values[i]));
+  return overrides;
+}
 
 bool is_of_settling(const study::Study& study) {
   return !study.tuning || is_of_settling(study.tuning->minimise);

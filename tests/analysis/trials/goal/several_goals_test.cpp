@@ -119,7 +119,7 @@ TEST_EACH_SEED(SeveralGoals, TheLoadIsShownUnderItsWorstCondition) {
   measures::PointSummary point;
   for (std::size_t i = 0; i < goals.size(); ++i) {
     goals[i].beside_load = draws.chance(0.7);
-    question.parts.push_back({.number = i, .claim = goals[i]});
+    question.parts.push_back({.number = i, .goal = goals[i]});
     point.goals.emplace_back(shape);
     point.for_the_load.emplace_back(shape);
     std::vector<double> rates(static_cast<std::size_t>(conditions));

@@ -100,7 +100,7 @@ TEST(CellCounts, HasNoSettingsIfTheStudyHasNeitherConditionsNorAges) {
   };
   EXPECT_EQ(settings_of(""), 0);
   EXPECT_EQ(settings_of("conditions: {it: {plant.inertia: 5.0e-4}}\n"), 1);
-  EXPECT_EQ(settings_of("ages: {at: [0, 1000], unit: h}\n"), 2);
+  EXPECT_EQ(settings_of("machines: 3\nages: {at: [0, 1000], unit: h}\n"), 2);
 }
 
 TEST_EACH_SEED(CountsInCells, EqualTheCountsOfTheTrialsOfEachCell) {

@@ -71,6 +71,7 @@ std::string success_of(const nlohmann::json& point) {
 TEST_F(FirstStudy, ItsCommandsPrintWhatTheReadmeSays) {
   std::istringstream lines(block(text_, "sh"));
   std::vector<std::string> commands;
+  std::string table;
   for (std::string line; std::getline(lines, line);) {
     std::vector<std::string> words = split_command(line);
     ASSERT_FALSE(words.empty());
@@ -81,9 +82,13 @@ TEST_F(FirstStudy, ItsCommandsPrintWhatTheReadmeSays) {
     if (words.front() == "run") words.insert(words.end(), {"--quiet"});
     const ProgramResult result = program(words);
     EXPECT_EQ(result.code, 0) << line << "\n" << result.err;
+    if (words.front() == "summary") table = result.out;
   }
   EXPECT_EQ(commands, (std::vector<std::string>{"check", "run", "summary", "judge", "report"}));
   EXPECT_TRUE(says(folder_.read("my-axis.html"), "</html>"));
+
+  std::istringstream rows(block(text_, "text"));
+  for (std::string row; std::getline(rows, row);) EXPECT_TRUE(says(table, row + "\n")) << row;
 
   const auto points = points_of("my-axis.h5");
   ASSERT_EQ(points.size(), 8U);

@@ -1,5 +1,5 @@
-// Headers of libraries that most sources need, parsed once for all of them (see zerocount_precompiled() in ZerocountTarget.cmake).
-// A source still includes what it uses: other builds go without this file.
+// Headers of libraries that most sources need, parsed once for all of them (see zerocount_precompiled() in
+// ZerocountTarget.cmake). A source still includes what it uses: other builds go without this file.
 #include <algorithm>
 #include <array>
 #include <charconv>

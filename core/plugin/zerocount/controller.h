@@ -57,8 +57,9 @@ typedef struct zerocount_setup {
   double torque_resolution; /* of the converter, N m per code */
   double lowest_torque;     /* that the converter can give, N m */
   double highest_torque;    /* that the converter can give, N m */
-  double initial_integral;  /* I before the first sample: initial.integral, and what initial.holding adds, N m */
-  double other_resolution;  /* of the encoder of the other mass, rad per count; 0: there is none */
+  double
+      initial_integral; /* I before the first sample: initial.integral, and what initial.holding adds, N m */
+  double other_resolution; /* of the encoder of the other mass, rad per count; 0: there is none */
 } zerocount_setup;
 
 /* A sampling instant. */

@@ -176,7 +176,7 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point);
 /// Simulates the first `count` machines of a study, and estimates the success rates from them.
 /// @param change changes the parameters of each drawn trial; null: no change
 RateEstimate estimate_on(const study::Study& study, const trials::Replicates& machines, std::int64_t count,
-                     const Change* change, const trials::Effort& effort);
+                         const Change* change, const trials::Effort& effort);
 
 /// Success rates on all machines with each possible cause of failures switched off, and with the best pair of
 /// causes, if the pair is better than each single cause. The first entry is "none", the unchanged point. A

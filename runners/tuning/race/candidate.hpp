@@ -94,7 +94,7 @@ RateEstimate estimate_of(const Aim& aim, std::span<const MachineResult> machines
 
 /// [candidate] Estimate of each candidate from its first `machines` machines.
 std::vector<RateEstimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates,
-                                   std::int64_t machines);
+                                       std::int64_t machines);
 
 /// Whether the rates from the candidate's machines meet all goals with one standard error to spare. A
 /// candidate that barely meets the goals would not pass the proof.

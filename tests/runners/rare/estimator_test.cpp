@@ -79,8 +79,9 @@ Repetitions repeated(std::uint64_t seeds, const TrialSpace& space, const Score& 
   Repetitions all;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     EstimatorState state;
-    const ProbabilityEstimate answer = estimate(state, {.space = space, .seed = seed}, simulation_of(score),
-                                     [budget](const EstimatorState& now) { return now.trials < budget; });
+    const ProbabilityEstimate answer =
+        estimate(state, {.space = space, .seed = seed}, simulation_of(score),
+                 [budget](const EstimatorState& now) { return now.trials < budget; });
     EXPECT_EQ(answer.status, EstimateStatus::estimated) << seed;
     EXPECT_LE(answer.bounds.high, 2.0 * answer.bounds.low) << seed;
     all.held += answer.bounds.low <= probability && probability <= answer.bounds.high;
@@ -230,7 +231,7 @@ TEST(RareEstimator, RowsOfATableKeepTheirProbability) {
 TEST(RareEstimator, AFailureThatAlwaysHappensHasProbabilityOne) {
   EstimatorState state;
   const ProbabilityEstimate answer = estimate(state, {.space = trial_space(2, {}), .seed = 1},
-                                   simulation_of([](const auto&) { return 1.0; }), goes_on);
+                                              simulation_of([](const auto&) { return 1.0; }), goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_GT(answer.bounds.low, 0.5);
   EXPECT_EQ(answer.bounds.high, 1.0);
@@ -246,7 +247,8 @@ TEST(RareEstimator, ACommonFailureIsEstimatedByPlainTrials) {
     }
   };
   EstimatorState state;
-  const ProbabilityEstimate answer = estimate(state, {.space = trial_space(4, {}), .seed = 1}, simulate, goes_on);
+  const ProbabilityEstimate answer =
+      estimate(state, {.space = trial_space(4, {}), .seed = 1}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::estimated);
   EXPECT_TRUE(answer.bounds.low <= 0.002 && 0.002 <= answer.bounds.high);
   EXPECT_TRUE(state.proposal.components.empty());
@@ -266,7 +268,8 @@ TEST(RareEstimator, LearnsAgainAfterUnexpectedFailures) {
     for (std::size_t i = 0; i < 4; ++i) factor[5 * i] = i == 1 ? 0.6 : 1.0;
     state.proposal = {.natural = 0.1, .components = {normal_component(1.0, {0.0, 2.0, 0.0, 0.0}, factor)}};
     state.cap = 1.0;
-    const ProbabilityEstimate answer = estimate(state, settings_of(one, seed), simulation_of(one.score), goes_on);
+    const ProbabilityEstimate answer =
+        estimate(state, settings_of(one, seed), simulation_of(one.score), goes_on);
     EXPECT_LE(answer.bounds.low, probability) << seed;
     if (state.learnings == 1) continue;
     ++learned_again;
@@ -282,7 +285,7 @@ TEST(RareEstimator, ABudgetThatEndsTheSearchLeavesItUndecided) {
   const ClosedForm one = plane(1e-6);
   EstimatorState state;
   const ProbabilityEstimate answer = estimate(state, settings_of(one, 1), simulation_of(one.score),
-                                   [](const EstimatorState& now) { return now.trials < 4000; });
+                                              [](const EstimatorState& now) { return now.trials < 4000; });
   EXPECT_EQ(answer.status, EstimateStatus::budget);
   const ProbabilityEstimate whole = estimate(state, settings_of(one, 1), simulation_of(one.score), goes_on);
   EXPECT_EQ(whole.status, EstimateStatus::estimated);
@@ -296,7 +299,8 @@ TEST(RareEstimator, IsUndecidedIfNoScoreLeadsToAFailure) {
     for (Trial& trial : trials) trial.scores = {0.0};
   };
   EstimatorState state;
-  const ProbabilityEstimate answer = estimate(state, {.space = trial_space(3, {}), .seed = 1}, simulate, goes_on);
+  const ProbabilityEstimate answer =
+      estimate(state, {.space = trial_space(3, {}), .seed = 1}, simulate, goes_on);
   EXPECT_EQ(answer.status, EstimateStatus::no_failure);
   EXPECT_EQ(answer.bounds.low, 0.0);
   EXPECT_GE(state.plain_trials, 290'000);
@@ -310,9 +314,9 @@ TEST(RareEstimator, AnInterruptedEstimateEndsWithTheSameResult) {
   const ProbabilityEstimate expected = estimate(whole, settings, simulation_of(one.score), goes_on);
   EstimatorState state;
   int asked_learned = 0;
-  const ProbabilityEstimate part = estimate(state, settings, simulation_of(one.score), [&](const EstimatorState& now) {
-    return !now.learned || ++asked_learned < 3;
-  });
+  const ProbabilityEstimate part =
+      estimate(state, settings, simulation_of(one.score),
+               [&](const EstimatorState& now) { return !now.learned || ++asked_learned < 3; });
   EXPECT_EQ(part.status, EstimateStatus::budget);
   const ProbabilityEstimate answer = estimate(state, settings, simulation_of(one.score), goes_on);
   EXPECT_EQ(answer.bounds.low, expected.bounds.low);

@@ -79,8 +79,9 @@ ValueRule frequency_of_filter(parameter::Handle frequency) {
 }
 
 bool is_frequency_of_filter(const parameters::Parameter& row) {
+  if (!row.name.ends_with(".frequency") || !parameters::has_value(row)) return false;
   const std::string pattern = parameters::without_indices(row.name);
-  return parameters::has_value(row) && pattern != row.name && pattern.ends_with(".filters.#.frequency");
+  return pattern != row.name && pattern.ends_with(".filters.#.frequency");
 }
 
 }  // namespace

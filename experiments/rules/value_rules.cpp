@@ -134,9 +134,10 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
 std::vector<parameter::Handle> ripples_on_the_load(const study::StudyPlan& plan) {
   std::vector<parameter::Handle> amplitudes;
   for (const parameters::Parameter& row : plan.table.rows) {
-    const bool is_amplitude =
-        parameters::without_indices(row.name) == parameter::disturbance::load::ripple::amplitude.path;
-    if (parameters::has_value(row) && is_amplitude) amplitudes.emplace_back(row.name);
+    // Cheap comparisons first: `tune` asks for the rules at each candidate.
+    if (!row.name.starts_with("disturbance.load.") || !parameters::has_value(row)) continue;
+    if (parameters::without_indices(row.name) == parameter::disturbance::load::ripple::amplitude.path)
+      amplitudes.emplace_back(row.name);
   }
   return amplitudes;
 }

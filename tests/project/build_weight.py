@@ -32,7 +32,7 @@ RESERVED = {
     r"unsupported/Eigen/FFT$": {"analysis/record/fit/residuals.cpp"},
     r"boost/math/distributions/": r"^(core|experiments)/.*\.cpp$|^analysis/basis/statistics/distributions\.cpp$",
     r"(ceres|boost/math|boost/program_options|yaml-cpp)/": r"\.cpp$",
-    r"nlohmann/json\.hpp": r"\.cpp$|^analysis/(text/report_json|document/figure)\.hpp$",
+    r"nlohmann/json\.hpp": r"\.cpp$|^analysis/basis/(text/report_json|document/figure)\.hpp$",
 }
 
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "analysis/trials/measures/trial_value.hpp"
+#include "core/trial/divergence.hpp"
 #include "core/trial/move_measures.hpp"
 #include "results/layout/measure_table.hpp"
 
@@ -38,7 +39,8 @@ bool settles(const MoveCriterion& criterion, const trial::MoveOutcome& move) {
       return trial::is_success(move.outcome);
     case Settling::in_band:
     case Settling::in_tolerance:
-      return is_in_time(settling_time(criterion, move), allowed_time(criterion, move));
+      return trial::was_run(move) &&
+             is_in_time(settling_time(criterion, move), allowed_time(criterion, move));
   }
   return false;
 }

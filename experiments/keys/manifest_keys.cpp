@@ -59,17 +59,17 @@ constexpr numerics::Interval margin{.low = 0.0, .high = 1e6, .low_included = tru
 
 // The part of the study that has the members of rows.
 template <class Part>
-Part& part_of(Reading& reading) {
-  if constexpr (std::is_same_v<Part, study::Study>) return reading.study;
-  if constexpr (std::is_same_v<Part, study::Ages>) return reading.study.settings.ages;
-  if constexpr (std::is_same_v<Part, study::Goal>) return reading.study.goals.back();
-  if constexpr (std::is_same_v<Part, study::StoppingRule>) return reading.study.stop.value();
-  if constexpr (std::is_same_v<Part, study::Tuning>) return reading.study.tuning.value();
-  if constexpr (std::is_same_v<Part, study::LoopMargins>) return reading.study.tuning.value().margins;
-  if constexpr (std::is_same_v<Part, study::LoopSpread>) return reading.study.tuning.value().margins.spread;
-  if constexpr (std::is_same_v<Part, study::SequenceCycle>) return reading.plan.sequence.value();
-  if constexpr (std::is_same_v<Part, parameters::StudyUnits>) return reading.plan.units;
-  if constexpr (std::is_same_v<Part, trial::VerdictParameters>) return reading.plan.common.verdict;
+Part& part_of(StudyDraft& draft) {
+  if constexpr (std::is_same_v<Part, study::Study>) return draft.study;
+  if constexpr (std::is_same_v<Part, study::Ages>) return draft.study.settings.ages;
+  if constexpr (std::is_same_v<Part, study::Goal>) return draft.study.goals.back();
+  if constexpr (std::is_same_v<Part, study::StoppingRule>) return draft.study.stop.value();
+  if constexpr (std::is_same_v<Part, study::Tuning>) return draft.study.tuning.value();
+  if constexpr (std::is_same_v<Part, study::LoopMargins>) return draft.study.tuning.value().margins;
+  if constexpr (std::is_same_v<Part, study::LoopSpread>) return draft.study.tuning.value().margins.spread;
+  if constexpr (std::is_same_v<Part, study::SequenceCycle>) return draft.plan.sequence.value();
+  if constexpr (std::is_same_v<Part, parameters::StudyUnits>) return draft.plan.units;
+  if constexpr (std::is_same_v<Part, trial::VerdictParameters>) return draft.plan.common.verdict;
 }
 
 // Stores the value of a field that has the shape; null: the word `none`.
@@ -125,8 +125,8 @@ Shape::Standard standard_of(const Value& value, const Shape& shape) {
 template <class Part, class Value>
 Shape stored(Shape shape, Value Part::*member) {
   if (!shape.required()) shape.standard = standard_of(Part{}.*member, shape);
-  shape.set = [member](Reading& reading, const Shape& read, const yaml::Field* field) {
-    store(part_of<Part>(reading).*member, read, field);
+  shape.set = [member](StudyDraft& draft, const Shape& read, const yaml::Field* field) {
+    store(part_of<Part>(draft).*member, read, field);
   };
   return shape;
 }
@@ -199,8 +199,8 @@ Shape goals_shape(Shape key) {
   Shape goals = of(Form::entries, std::move(key),
                    "a map of goals by their names, such as {large: {within: 0.03, moves: 0.99}}",
                    {of(Form::map, {}, "{band: 1, within: 0.05, moves: 0.99}", keys_of_goal())});
-  goals.add = [](Reading& reading, const std::string& name) {
-    reading.study.goals.push_back({.name = name, .axis = reading.plan.units.axis});
+  goals.add = [](StudyDraft& draft, const std::string& name) {
+    draft.study.goals.push_back({.name = name, .axis = draft.plan.units.axis});
   };
   return goals;
 }
@@ -227,7 +227,7 @@ Shape margins_shape() {
       {.name = "spread",
        .none = "off",
        .presets = {{"typical",
-                    [](Reading& reading) { part_of<study::LoopSpread>(reading) = study::typical_spread; }}}},
+                    [](StudyDraft& draft) { part_of<study::LoopSpread>(draft) = study::typical_spread; }}}},
       "off, typical, or {inertia: 0.1, damping: 0.3, torque_constant: 0.05} (parts of their values)",
       {real({.name = "inertia", .none = "off"}, spread, &study::LoopSpread::inertia),
        real({.name = "damping", .none = "off"}, spread, &study::LoopSpread::damping),
@@ -237,8 +237,8 @@ Shape margins_shape() {
       {.name = "margins",
        .none = "off",
        .presets = {{"commissioning",
-                    [](Reading& reading) {
-                      part_of<study::LoopMargins>(reading) = study::commissioning_margins;
+                    [](StudyDraft& draft) {
+                      part_of<study::LoopMargins>(draft) = study::commissioning_margins;
                     }}}},
       "off, commissioning, or {gain: 6, phase: 30, delay: 0.5} (dB, degrees, samples)",
       {real({.name = "gain", .none = "off"}, margin, &study::LoopMargins::gain),

@@ -84,8 +84,9 @@ struct ProfileRequest {
   std::string path;
 };
 
-/// The objects that are filled while a manifest is read: the plan, the study, the problems and the warnings.
-struct Reading {
+/// A study whose manifest is being read: the plan and the study that are filled, the problems and the
+/// warnings.
+struct StudyDraft {
   yaml::Problems& problems;
   study::StudyPlan& plan;  ///< plan of the study that is filled, for example with the distributions
   study::Study& study;
@@ -114,27 +115,28 @@ struct PlanPlaces {
 
 /// Reports friction parameters whose drawn profile along the axis leaves the range of the parameter at some
 /// position of a rotor.
-void check_profiles(const Reading& reading);
+void check_profiles(const StudyDraft& draft);
 
 /// A value that stands for one that could not be read: the number NaN, so that later checks ignore it.
 study::Value unreadable_value();
 
 /// Reads the value of the parameter with this slot (index in the plan): a number, a label, a distribution or
 /// a profile, checked against the parameter's range. Reports errors and returns unreadable_value() then. Sets
-/// or resets Reading::rate.
-study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading);
+/// or resets StudyDraft::rate.
+study::Value read_value(const yaml::Field& field, std::size_t slot, StudyDraft& draft);
 
 /// `number` as a value of the parameter with this slot (index in the plan), checked as read_value() does;
 /// `field` is the place for messages.
-study::Value checked_number(const yaml::Field& field, std::size_t slot, double number, Reading& reading);
+study::Value checked_number(const yaml::Field& field, std::size_t slot, double number, StudyDraft& draft);
 
 inline constexpr std::string_view aging_key = "aging";
 /// The key under which a plain number stands if the law of aging is given beside it: {value: 3, aging: ...}.
 inline constexpr std::string_view value_key = "value";
 
 /// Reads the key `aging` of the value of a slot: {exponential: -0.1, scale: 1.0e+6}. Adds the slot of the
-/// rate to the plan, stores the law in `value`, and the value of the rate in Reading::rate. Reports errors.
+/// rate to the plan, stores the law in `value`, and the value of the rate in StudyDraft::rate. Reports
+/// errors.
 /// @param field field of the key `aging`
-void read_aging(const yaml::Field& field, std::size_t slot, study::Value& value, Reading& reading);
+void read_aging(const yaml::Field& field, std::size_t slot, study::Value& value, StudyDraft& draft);
 
 }  // namespace zerocount::keys

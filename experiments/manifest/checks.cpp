@@ -51,8 +51,8 @@ bool is_required(const study::StudyPlan& plan, const std::vector<rules::EffectRu
 
 // Reports missing required parameters: those without a default, and those whose default has other units than
 // this study (such as the paper's N m/rad on a linear axis), if they have an effect.
-void check_required_values(const keys::PlanPlaces& places, keys::Reading& reading) {
-  const study::StudyPlan& plan = reading.plan;
+void check_required_values(const keys::PlanPlaces& places, keys::StudyDraft& draft) {
+  const study::StudyPlan& plan = draft.plan;
   const std::vector<rules::EffectRule> rules = rules::effect_rules(plan);
   const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
@@ -60,26 +60,26 @@ void check_required_values(const keys::PlanPlaces& places, keys::Reading& readin
     if (!is_required(plan, rules, parameter) || is_given_everywhere(places, plan, row) ||
         plan.base[row].kind == study::Value::Kind::derived)
       continue;
-    reading.problems.add_missing(places.base[row], parameter.name, why_required(parameter),
-                                 fmt::format("its value in {}", parameters::unit_of(parameter, plan.units)));
+    draft.problems.add_missing(places.base[row], parameter.name, why_required(parameter),
+                               fmt::format("its value in {}", parameters::unit_of(parameter, plan.units)));
   }
 }
 
 struct Checking {
   const keys::PlanPlaces& places;
-  keys::Reading& reading;
+  keys::StudyDraft& draft;
 
-  const study::StudyPlan& plan() const { return reading.plan; }
+  const study::StudyPlan& plan() const { return draft.plan; }
 };
 
 void tell(Checking& c, const yaml::Place& place, std::string_view path, const std::string& what,
           std::string_view expected, bool warn_only) {
   const std::string text = parameters::text_on(c.plan().units.axis, what);
   if (warn_only) {
-    c.reading.warnings.push_back(yaml::at_place(
+    c.draft.warnings.push_back(yaml::at_place(
         place, path, expected.empty() ? text : fmt::format("{}; expected {}", text, expected)));
   } else {
-    c.reading.problems.add(place, path, text, expected);
+    c.draft.problems.add(place, path, text, expected);
   }
 }
 
@@ -216,10 +216,10 @@ void check_range_at_ages(const Checking& c, std::size_t slot) {
     if (!value.aging || std::isnan(value.number)) return true;
     const auto [low, high] = aged_extremes(plan, slot, point);
     if (std::isnan(low) || (numerics::contains(range, low) && numerics::contains(range, high))) return true;
-    c.reading.problems.add(
+    c.draft.problems.add(
         place_of_fault(c.places, plan, {&slot, 1}, point).place, parameter.name,
         fmt::format("its values at {}, {:.6g} to {:.6g}, leave the allowed range {}",
-                    study::age_text(c.reading.study.settings.ages, study::age_at(plan, point)), low, high,
+                    study::age_text(c.draft.study.settings.ages, study::age_at(plan, point)), low, high,
                     numerics::notation(range)),
         fmt::format("a rate of aging with which all values are {}", numerics::range_text(range)));
     return false;
@@ -228,10 +228,10 @@ void check_range_at_ages(const Checking& c, std::size_t slot) {
 
 }  // namespace
 
-void check_ages(const keys::PlanPlaces& places, keys::Reading& reading) {
-  const study::StudyPlan& plan = reading.plan;
+void check_ages(const keys::PlanPlaces& places, keys::StudyDraft& draft) {
+  const study::StudyPlan& plan = draft.plan;
   if (plan.ages.empty()) return;
-  const Checking checking{places, reading};
+  const Checking checking{places, draft};
   for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
     if (plan.base[slot].kind != study::Value::Kind::derived && study::changes_with_age(plan, slot))
       check_range_at_ages(checking, slot);
@@ -277,9 +277,9 @@ FaultPlace place_of_fault(const keys::PlanPlaces& places, const study::StudyPlan
   return {places.base[slots.front()], slots.front()};
 }
 
-void check_points(const keys::PlanPlaces& places, keys::Reading& reading) {
-  Checking checking{places, reading};
-  check_required_values(places, reading);
+void check_points(const keys::PlanPlaces& places, keys::StudyDraft& draft) {
+  Checking checking{places, draft};
+  check_required_values(places, draft);
   check_values(checking);
   check_effects(checking);
 }

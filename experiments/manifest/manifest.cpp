@@ -22,14 +22,14 @@ namespace {
 // State of the reading of a manifest.
 struct Manifest {
   yaml::Field root;
-  keys::Reading reading;
+  keys::StudyDraft draft;
   keys::PlanPlaces places{};
   std::vector<sections::SweptAxis> axes{};
   sections::SweptAxis conditions{};
 
-  yaml::Problems& problems() { return reading.problems; }
-  study::StudyPlan& plan() { return reading.plan; }
-  study::Study& study() { return reading.study; }
+  yaml::Problems& problems() { return draft.problems; }
+  study::StudyPlan& plan() { return draft.plan; }
+  study::Study& study() { return draft.study; }
 };
 
 void check_version(Manifest& m) {
@@ -51,41 +51,41 @@ void read_values(Manifest& m) {
   for (const shapes::Shape& key : keys::general_keys()) {
     const bool is_of_section = key.name.find('.') != std::string_view::npos;
     if (!is_of_section && (key.set || !yaml::find_field(m.root, key.name)))
-      shapes::read_keys(m.root, {&key, 1}, m.problems(), &m.reading);
+      shapes::read_keys(m.root, {&key, 1}, m.problems(), &m.draft);
   }
-  m.reading.groups = {.machines = yaml::find_field(m.root, "machines").has_value(),
-                      .worlds = yaml::find_field(m.root, "worlds").has_value(),
-                      .ages = yaml::find_field(m.root, "ages").has_value()};
+  m.draft.groups = {.machines = yaml::find_field(m.root, "machines").has_value(),
+                    .worlds = yaml::find_field(m.root, "worlds").has_value(),
+                    .ages = yaml::find_field(m.root, "ages").has_value()};
 }
 
 // Reads `travel`, `controller.units` and `command.units`. Must come first, because all other values depend on
 // the units.
-void read_study_units(const yaml::Field& root, keys::Reading& reading) {
-  study::StudyPlan& plan = reading.plan;
+void read_study_units(const yaml::Field& root, keys::StudyDraft& draft) {
+  study::StudyPlan& plan = draft.plan;
   const bool linear = plan.units.axis == parameters::AxisKind::linear;
   if (linear) plan.period.reset();
   if (const auto travel = yaml::find_field(root, "travel")) {
-    const bool sound = shapes::read(*travel, keys::shape_of("travel"), reading.problems);
+    const bool sound = shapes::read(*travel, keys::shape_of("travel"), draft.problems);
     if (linear && sound) plan.period = shapes::number_of(*travel);
   }
   for (const std::string_view section : {"controller", "command"}) {
     const auto map = yaml::find_field(root, section);
     const auto units = map ? yaml::find_field(*map, "units") : std::nullopt;
-    if (units) shapes::read(*units, keys::shape_of(units->path), reading.problems, &reading);
+    if (units) shapes::read(*units, keys::shape_of(units->path), draft.problems, &draft);
   }
   if (plan.units.targets == parameters::TargetUnits::si) study::use_si_positions(plan.table);
 }
 
 // Warns if `travel` is given and nothing varies along it.
-void check_travel(const yaml::Field& root, keys::Reading& reading) {
+void check_travel(const yaml::Field& root, keys::StudyDraft& draft) {
   const auto travel = yaml::find_field(root, "travel");
-  if (!travel || !reading.profiles.empty() || reading.plan.units.axis == parameters::AxisKind::rotary) return;
-  reading.warnings.push_back(yaml::at_place(travel->node->place, travel->path,
-                                            "it has no effect: no friction parameter is a profile"));
+  if (!travel || !draft.profiles.empty() || draft.plan.units.axis == parameters::AxisKind::rotary) return;
+  draft.warnings.push_back(yaml::at_place(travel->node->place, travel->path,
+                                          "it has no effect: no friction parameter is a profile"));
 }
 
 void read_axes(Manifest& m) {
-  if (const auto field = yaml::find_field(m.root, "sweep")) m.axes = sections::read_sweep(*field, m.reading);
+  if (const auto field = yaml::find_field(m.root, "sweep")) m.axes = sections::read_sweep(*field, m.draft);
   for (const sections::SweptAxis& axis : m.axes) {
     if (axis.labels.empty()) {  // could not be read, but gives these values
       for (const std::size_t slot : axis.slots) {
@@ -102,8 +102,8 @@ void read_axes(Manifest& m) {
 
 void read_conditions(Manifest& m) {
   const auto field = yaml::find_field(m.root, "conditions");
-  if (field) m.conditions = sections::read_conditions(*field, m.axes, m.reading);
-  const sections::SweptAxis settings = sections::settings_axis(m.conditions, m.reading);
+  if (field) m.conditions = sections::read_conditions(*field, m.axes, m.draft);
+  const sections::SweptAxis settings = sections::settings_axis(m.conditions, m.draft);
   if (!settings.labels.empty()) {
     m.plan().axes.push_back(settings.axis);
     m.plan().settings_axis = m.plan().axes.size() - 1;
@@ -213,16 +213,16 @@ void warn_of_equal_worlds(Manifest& m) {
     if (column.level == study::DrawLevel::world) return;
   }
   const yaml::Field field = yaml::find_field(m.root, "worlds").value();
-  m.reading.warnings.push_back(yaml::at_place(field.node->place, field.path,
-                                              "the worlds are all alike: no value is drawn `per: world`"));
+  m.draft.warnings.push_back(yaml::at_place(field.node->place, field.path,
+                                            "the worlds are all alike: no value is drawn `per: world`"));
 }
 
 // Warns if all ages are alike.
 void warn_of_equal_ages(Manifest& m) {
   const auto field = yaml::find_field(m.root, "ages");
   if (field && m.plan().agings.empty())
-    m.reading.warnings.push_back(yaml::at_place(field->node->place, field->path,
-                                                "the ages are all alike: no value has `aging` beside it"));
+    m.draft.warnings.push_back(yaml::at_place(field->node->place, field->path,
+                                              "the ages are all alike: no value has `aging` beside it"));
 }
 
 void read_retained(Manifest& m) {
@@ -230,7 +230,7 @@ void read_retained(Manifest& m) {
   if (!field) return;
   shapes::Shape retain = keys::shape_of("retain");
   shapes::limit_items(retain, "trials", m.study().trials - 1);
-  shapes::read(*field, retain, m.problems(), &m.reading);
+  shapes::read(*field, retain, m.problems(), &m.draft);
   std::ranges::sort(m.study().retained_trials);
 }
 
@@ -239,7 +239,7 @@ void read_observed(Manifest& m) {
   const bool complete =
       std::none_of(m.axes.begin(), m.axes.end(), [](const auto& axis) { return axis.labels.empty(); });
   if (!field || !complete) return;  // an incomplete axis is reported already
-  sections::read_observations(*field, m.axes, m.reading);
+  sections::read_observations(*field, m.axes, m.draft);
 }
 
 }  // namespace
@@ -249,52 +249,52 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded,
                            yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
   study::Study study;
-  Manifest m{.root = {&root, ""}, .reading = {problems, *plan, study, recorded}};
+  Manifest m{.root = {&root, ""}, .draft = {problems, *plan, study, recorded}};
   if (!yaml::check_map({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
                        problems))
     return {};
   parameters::check_keys(m.root, keys::keys_below(""), problems);
   check_exclusions(m.root, problems);
   read_values(m);
-  read_study_units(m.root, m.reading);
-  sections::read_ages(m.root, m.reading);
-  sections::read_plugin(m.root, external.plugin, m.reading);
-  sections::read_sections(m.root, m.reading, m.places);
+  read_study_units(m.root, m.draft);
+  sections::read_ages(m.root, m.draft);
+  sections::read_plugin(m.root, external.plugin, m.draft);
+  sections::read_sections(m.root, m.draft, m.places);
   read_axes(m);
   read_conditions(m);
-  if (samples != nullptr) sections::join_samples(*samples, m.axes, m.reading);
-  let_follow_from_measured(m.places, m.reading);
-  sections::read_correlations(m.root, m.reading);
+  if (samples != nullptr) sections::join_samples(*samples, m.axes, m.draft);
+  let_follow_from_measured(m.places, m.draft);
+  sections::read_correlations(m.root, m.draft);
   read_retained(m);
-  if (const auto field = yaml::find_field(m.root, "stop")) sections::read_stop(*field, m.reading);
-  sections::read_goals(m.root, m.reading);
+  if (const auto field = yaml::find_field(m.root, "stop")) sections::read_stop(*field, m.draft);
+  sections::read_goals(m.root, m.draft);
   sections::measure_both_masses(m.plan());
-  if (const auto field = yaml::find_field(m.root, "tune")) sections::read_tuning(*field, m.reading);
+  if (const auto field = yaml::find_field(m.root, "tune")) sections::read_tuning(*field, m.draft);
   sections::check_overrides(m.root, m.conditions,
-                            samples != nullptr ? samples->columns : std::vector<yaml::Place>{}, m.reading);
+                            samples != nullptr ? samples->columns : std::vector<yaml::Place>{}, m.draft);
   check_trial_count(m);
   check_equal_groups(m);
   check_worlds(m);
   read_observed(m);
-  realise_profiles(m.reading.profiles, study, external.rotors, *plan);
-  keys::check_profiles(m.reading);
-  check_what_follows(m.places, m.reading);
-  check_points(m.places, m.reading);
-  check_ages(m.places, m.reading);
-  check_travel(m.root, m.reading);
+  realise_profiles(m.draft.profiles, study, external.rotors, *plan);
+  keys::check_profiles(m.draft);
+  check_what_follows(m.places, m.draft);
+  check_points(m.places, m.draft);
+  check_ages(m.places, m.draft);
+  check_travel(m.root, m.draft);
   if (problems.empty()) check_rows(m);
   for (std::size_t slot = 0; slot < plan->table.rows.size(); ++slot)
     plan->given.push_back(given_place(m.places, *plan, slot).has_value());
-  if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, study);
+  if (problems.empty()) assemble_study(m.draft.profiles, m.axes, *plan, study);
   if (problems.empty()) warn_of_equal_worlds(m);
   warn_of_equal_ages(m);
   study.plugin = plan->plugin;
   study.plan = plan;
-  if (problems.empty()) check_measured_machines(study, m.places, m.reading);
-  if (problems.empty()) check_unseen_motions(study, m.places, m.reading);
+  if (problems.empty()) check_measured_machines(study, m.places, m.draft);
+  if (problems.empty()) check_unseen_motions(study, m.places, m.draft);
   study.features.coarse_errors = study.features.encoder_errors && study::has_coarse_encoder(*plan);
   study.premises = study::premises_of(*plan);
-  study.warnings = std::move(m.reading.warnings);
+  study.warnings = std::move(m.draft.warnings);
   return study;
 }
 

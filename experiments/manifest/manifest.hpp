@@ -17,7 +17,7 @@ namespace zerocount::manifest {
 
 /// Converts the manifest `root` to a Study, without its text, overrides and hashes. Errors are added to
 /// `problems`; with errors the study must not be used.
-/// @param recorded the study has results (Reading::recorded)
+/// @param recorded the study has results (StudyDraft::recorded)
 /// @param samples table of samples that was inserted in `root` before; null if there is none
 study::Study read_manifest(const yaml::YamlNode& root, bool recorded,
                            const sections::ExternalInputs& external, const sections::SamplesTable* samples,
@@ -44,11 +44,11 @@ void check_exclusions(const yaml::Field& root, yaml::Problems& problems);
 /// must be consistent (value_rules.hpp), every given key must have an effect at some point (value_rules.hpp),
 /// and required values must be given. A problem is reported at the place of a swept value, if one is
 /// involved.
-void check_points(const keys::PlanPlaces& places, keys::Reading& reading);
+void check_points(const keys::PlanPlaces& places, keys::StudyDraft& draft);
 
 /// Reports values that can leave the range of their parameter at some age of the study. Only the extremes of
 /// what can be drawn are checked.
-void check_ages(const keys::PlanPlaces& places, keys::Reading& reading);
+void check_ages(const keys::PlanPlaces& places, keys::StudyDraft& draft);
 
 /// Whether the manifest gives a value for the slot (one parameter of the plan) at every design point.
 bool is_given_everywhere(const keys::PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot);
@@ -74,15 +74,15 @@ FaultPlace place_of_fault(const keys::PlanPlaces& places, const study::StudyPlan
 /// follow from them derived values (parameters/measured_parameters.hpp). Reports an incomplete group of
 /// measured parameters, and a group given together with parameters that follow from it. All values must be
 /// read already.
-void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& reading);
+void let_follow_from_measured(const keys::PlanPlaces& places, keys::StudyDraft& draft);
 
 /// Reports measured values from which no allowed value of the friction parameters follows.
-void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading);
+void check_what_follows(const keys::PlanPlaces& places, keys::StudyDraft& draft);
 
 /// Reports measured values that no machine can have (study/measured_machines.hpp). Checks the draws of each
 /// trial, machine or world of the assembled study, and all values between the ends of the ranges of `tune`.
 void check_measured_machines(const study::Study& study, const keys::PlanPlaces& places,
-                             keys::Reading& reading);
+                             keys::StudyDraft& draft);
 
 /// Checks that the encoder sees each commanded motion of the assembled study. The loop does not notice a
 /// motion of less than a count, and its move would be perfect: a target in SI units that lies on the same
@@ -90,6 +90,6 @@ void check_measured_machines(const study::Study& study, const keys::PlanPlaces& 
 ///
 /// Such a motion in all trials of a design point is an error (a warning if the study was recorded earlier);
 /// in some of them it is a warning with their proportion.
-void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& places, keys::Reading& reading);
+void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& places, keys::StudyDraft& draft);
 
 }  // namespace zerocount::manifest

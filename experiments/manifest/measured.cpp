@@ -56,13 +56,13 @@ bool is_chosen(const MeasuredParameters& group, const keys::PlanPlaces& places,
 
 /// Reports the measured parameters of a group that the manifest does not give at some design point.
 void require_all(const study::MeasuredSlots& measured, const yaml::Place& first,
-                 const keys::PlanPlaces& places, keys::Reading& reading) {
-  const study::StudyPlan& plan = reading.plan;
+                 const keys::PlanPlaces& places, keys::StudyDraft& draft) {
+  const study::StudyPlan& plan = draft.plan;
   const MeasuredParameters* const other = alternative_to(*measured.group);
   for (std::size_t i = 0; i < measured.slots.size(); ++i) {
     if (is_given_everywhere(places, plan, measured.slots[i])) continue;
     const bool has_other = other != nullptr && i < measured.group->own;
-    reading.problems.add_missing(
+    draft.problems.add_missing(
         first, measured.group->names[i],
         fmt::format("its value in {}, beside the other keys of {}{}",
                     parameters::unit_of(plan.table.rows[measured.slots[i]], plan.units),
@@ -73,37 +73,37 @@ void require_all(const study::MeasuredSlots& measured, const yaml::Place& first,
 /// Whether the parameter of the slot is absent from the manifest. It must be, because it follows from
 /// measured parameters; a parameter that is given nevertheless is reported.
 bool check_not_given(const MeasuredParameters& group, std::uint32_t slot, const keys::PlanPlaces& places,
-                     keys::Reading& reading) {
-  const auto place = given_place(places, reading.plan, slot);
+                     keys::StudyDraft& draft) {
+  const auto place = given_place(places, draft.plan, slot);
   if (place)
-    reading.problems.add(*place, reading.plan.table.rows[slot].name,
-                         fmt::format("it follows from {}, which the manifest gives too", group.section),
-                         "one or the other");
+    draft.problems.add(*place, draft.plan.table.rows[slot].name,
+                       fmt::format("it follows from {}, which the manifest gives too", group.section),
+                       "one or the other");
   return !place;
 }
 
 /// Whether the manifest gives no key of another group of measured parameters that determines the same
 /// parameters. Such keys are reported.
-bool check_alone(const MeasuredParameters& group, const keys::PlanPlaces& places, keys::Reading& reading) {
-  const study::StudyPlan& plan = reading.plan;
+bool check_alone(const MeasuredParameters& group, const keys::PlanPlaces& places, keys::StudyDraft& draft) {
+  const study::StudyPlan& plan = draft.plan;
   const MeasuredParameters* const other = alternative_to(group);
   const auto own_of_other = other == nullptr ? std::nullopt : first_own_given(*other, places, plan);
   if (!own_of_other) return true;
-  reading.problems.add(given_place(places, plan, *own_of_other).value(), plan.table.rows[*own_of_other].name,
-                       fmt::format("the manifest gives {} too", group.names.front()), "one or the other");
+  draft.problems.add(given_place(places, plan, *own_of_other).value(), plan.table.rows[*own_of_other].name,
+                     fmt::format("the manifest gives {} too", group.names.front()), "one or the other");
   return false;
 }
 
-void let_follow(const MeasuredParameters& group, const keys::PlanPlaces& places, keys::Reading& reading) {
-  study::StudyPlan& plan = reading.plan;
+void let_follow(const MeasuredParameters& group, const keys::PlanPlaces& places, keys::StudyDraft& draft) {
+  study::StudyPlan& plan = draft.plan;
   const study::MeasuredSlots measured{&group, slots_of(plan.table, group.names)};
   const std::uint32_t first = first_given(group.names, places, plan).value();
-  if (check_alone(group, places, reading))
-    require_all(measured, given_place(places, plan, first).value(), places, reading);
+  if (check_alone(group, places, draft))
+    require_all(measured, given_place(places, plan, first).value(), places, draft);
   plan.measured.push_back(measured);
   for (const parameters::DerivedParameter& parameter : group.derived) {
     const std::uint32_t slot = slots_of(plan.table, {&parameter.name, 1}).front();
-    if (!check_not_given(group, slot, places, reading)) continue;
+    if (!check_not_given(group, slot, places, draft)) continue;
     plan.base[slot] = {.kind = study::Value::Kind::derived,
                        .index = static_cast<std::uint32_t>(plan.derived.size())};
     plan.derived.push_back({slots_of(plan.table, parameter.from), parameter.value});
@@ -176,7 +176,7 @@ std::string_view name_of(study::DrawLevel level) {
 /// Reports the first draw of measured values at the point that no machine can have, and the number of such
 /// draws. Returns whether there is no such draw.
 bool check_draws(const MeasuredDraws& draws, std::size_t point, const study::Study& study,
-                 const keys::PlanPlaces& places, keys::Reading& reading) {
+                 const keys::PlanPlaces& places, keys::StudyDraft& draft) {
   const std::int64_t count = draws.count_at(point);
   std::optional<study::MeasuredFault> first;
   std::int64_t first_index = 0;
@@ -199,21 +199,21 @@ bool check_draws(const MeasuredDraws& draws, std::size_t point, const study::Stu
   const std::string under = study::setting_phrase(study.settings, study::setting_at(*study.plan, point));
   const std::vector<std::size_t> slots(first->slots.begin(), first->slots.end());
   const FaultPlace place = place_of_fault(places, *study.plan, slots, point);
-  reading.problems.add(place.place, study.plan->table.rows[place.slot].name,
-                       fmt::format("{}{}{}{}{}", of, first->what, at, under, how_many), first->expected);
+  draft.problems.add(place.place, study.plan->table.rows[place.slot].name,
+                     fmt::format("{}{}{}{}{}", of, first->what, at, under, how_many), first->expected);
   return false;
 }
 
 }  // namespace
 
-void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& reading) {
+void let_follow_from_measured(const keys::PlanPlaces& places, keys::StudyDraft& draft) {
   for (const MeasuredParameters& group : parameters::measured_parameters()) {
-    if (is_chosen(group, places, reading.plan)) let_follow(group, places, reading);
+    if (is_chosen(group, places, draft.plan)) let_follow(group, places, draft);
   }
 }
 
-void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading) {
-  const study::StudyPlan& plan = reading.plan;
+void check_what_follows(const keys::PlanPlaces& places, keys::StudyDraft& draft) {
+  const study::StudyPlan& plan = draft.plan;
   for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
     if (plan.base[slot].kind != study::Value::Kind::derived) continue;
     const parameters::Parameter& row = plan.table.rows[slot];
@@ -226,7 +226,7 @@ void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading) 
                               numerics::contains(range, numerics::closed(limits.low, limits.high));
       if (is_allowed && !std::isinf(limits.high)) return true;
       const std::vector<std::size_t> sources(derived.from.begin(), derived.from.end());
-      reading.problems.add(
+      draft.problems.add(
           place_of_fault(places, plan, sources, point).place, row.name,
           limits.low == limits.high
               ? fmt::format("it is {:.6g} with these measured values", limits.low)
@@ -238,14 +238,14 @@ void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading) 
 }
 
 void check_measured_machines(const study::Study& study, const keys::PlanPlaces& places,
-                             keys::Reading& reading) {
+                             keys::StudyDraft& draft) {
   constexpr std::size_t max_reported = 20;
   std::size_t reported = 0;
   for (const study::MeasuredSlots& measured : study.plan->measured) {
     const MeasuredDraws draws(study, measured);
     const auto check = [&](std::size_t point) {
       if (draws.are_safe(point)) return true;
-      if (!check_draws(draws, point, study, places, reading)) ++reported;
+      if (!check_draws(draws, point, study, places, draft)) ++reported;
       return reported < max_reported;
     };
     const std::vector<std::size_t> slots(measured.slots.begin(), measured.slots.end());

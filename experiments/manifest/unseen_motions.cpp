@@ -177,9 +177,10 @@ bool is_drawn(const study::StudyPlan& plan, std::span<const std::size_t> slots, 
 
 }  // namespace
 
-void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& places, keys::Reading& reading) {
+void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& places,
+                          keys::StudyDraft& draft) {
   constexpr std::size_t max_reported = 20;
-  const study::StudyPlan& plan = reading.plan;
+  const study::StudyPlan& plan = draft.plan;
   if (plan.open_loop) return;
   const Motions motions(study, plan);
   const std::vector<std::size_t> slots = motions.slots();
@@ -201,11 +202,10 @@ void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& pla
           of_record ? places.record : place_of_fault(places, plan, motions.involved(motion), point).place;
       const std::string_view path = of_record ? rules::record_key(plan) : plan.table.rows[motion.slot].name;
       constexpr const char* expected = "motions of a count or more, or a finer encoder";
-      if (count == trials && motion.judged_in_counts && !reading.recorded) {
-        reading.problems.add(place, path, what, expected);
+      if (count == trials && motion.judged_in_counts && !draft.recorded) {
+        draft.problems.add(place, path, what, expected);
       } else {
-        reading.warnings.push_back(
-            yaml::at_place(place, path, fmt::format("{}; expected {}", what, expected)));
+        draft.warnings.push_back(yaml::at_place(place, path, fmt::format("{}; expected {}", what, expected)));
       }
     }
     return reported < max_reported;

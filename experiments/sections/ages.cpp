@@ -22,21 +22,21 @@ void copy_option(const SweptAxis& from, std::size_t option, SweptAxis& to) {
 
 }  // namespace
 
-void read_ages(const yaml::Field& root, keys::Reading& reading) {
+void read_ages(const yaml::Field& root, keys::StudyDraft& draft) {
   const auto field = yaml::find_field(root, "ages");
   if (!field) return;
-  shapes::read(*field, keys::shape_of("ages"), reading.problems, &reading);
-  reading.plan.ages = reading.study.settings.ages.at;
+  shapes::read(*field, keys::shape_of("ages"), draft.problems, &draft);
+  draft.plan.ages = draft.study.settings.ages.at;
 }
 
-SweptAxis settings_axis(const SweptAxis& conditions, keys::Reading& reading) {
-  study::Settings& settings = reading.study.settings;
+SweptAxis settings_axis(const SweptAxis& conditions, keys::StudyDraft& draft) {
+  study::Settings& settings = draft.study.settings;
   SweptAxis axis{.name = "condition", .place = conditions.place};
   const study::SettingCounts counts = settings.counts();
   if (counts.conditions > max_settings / counts.ages) {
-    reading.problems.add(conditions.place, "conditions",
-                         fmt::format("{} conditions at {} ages are too many", counts.conditions, counts.ages),
-                         fmt::format("at most {} of both together", max_settings));
+    draft.problems.add(conditions.place, "conditions",
+                       fmt::format("{} conditions at {} ages are too many", counts.conditions, counts.ages),
+                       fmt::format("at most {} of both together", max_settings));
     settings.conditions.clear();
     settings.ages.at.clear();
   }

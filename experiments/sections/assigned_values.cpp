@@ -58,16 +58,16 @@ bool is_of_spectrum(const study::StudyPlan& plan, std::string_view path) {
 }
 
 std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml::YamlEntry& entry,
-                                              std::string_view refusal, keys::Reading& reading) {
-  const study::StudyTable& table = reading.plan.table;
+                                              std::string_view refusal, keys::StudyDraft& draft) {
+  const study::StudyTable& table = draft.plan.table;
   if (auto slots = study::find_slots(entry.key, table)) return slots;
   // The parameters of a plugin that could not be loaded, which is reported, are not known.
-  if (reading.plugin_failed && keys::is_within(entry.key, "controller.parameters")) return std::nullopt;
-  yaml::Problems& problems = reading.problems;
+  if (draft.plugin_failed && keys::is_within(entry.key, "controller.parameters")) return std::nullopt;
+  yaml::Problems& problems = draft.problems;
   const std::string path = yaml::entry_of(map, entry).path;
   const std::string pattern = parameters::without_indices(entry.key);
   const bool of_element = parameters::find_element_list(pattern.substr(0, pattern.find(".#"))) != nullptr;
-  if (is_of_spectrum(reading.plan, entry.key)) {
+  if (is_of_spectrum(draft.plan, entry.key)) {
     problems.add(entry.place, path, fmt::format("{} is not a parameter: a spectrum is fixed", entry.key),
                  "a parameter, or a manifest for each spectrum");
   } else if (of_element && pattern != entry.key) {
@@ -82,7 +82,7 @@ std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml
     } else {
       problems.add(entry.place, path, fmt::format("the study has no {}", list.name),
                    keys::is_within(list.name, keys::required_section)
-                       ? fmt::format("{}, which it has", table.rows[reading.plan.list.row].name)
+                       ? fmt::format("{}, which it has", table.rows[draft.plan.list.row].name)
                        : "the list in its section of the manifest");
     }
   } else if (const std::string aged = aged_parameter(table, entry.key); !aged.empty()) {

@@ -11,11 +11,11 @@ namespace {
 
 /// Reads the value of `field` and assigns it to the slot (a parameter in the plan) in the current option of
 /// the axis. If the value changes with age, its rate is assigned before it.
-void assign_read(SweptAxis& axis, std::size_t slot, const yaml::Field& field, keys::Reading& reading) {
-  const study::Value value = keys::read_value(field, slot, reading);
-  if (reading.rate) {
-    note_slots(axis, {reading.rate->slot, 1, false});
-    assign(axis, reading.rate->slot, reading.rate->value, field.node->place);
+void assign_read(SweptAxis& axis, std::size_t slot, const yaml::Field& field, keys::StudyDraft& draft) {
+  const study::Value value = keys::read_value(field, slot, draft);
+  if (draft.rate) {
+    note_slots(axis, {draft.rate->slot, 1, false});
+    assign(axis, draft.rate->slot, draft.rate->value, field.node->place);
   }
   assign(axis, slot, value, field.node->place);
 }
@@ -23,22 +23,22 @@ void assign_read(SweptAxis& axis, std::size_t slot, const yaml::Field& field, ke
 }  // namespace
 
 void read_assignments(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
-                      keys::Reading& reading) {
+                      keys::StudyDraft& draft) {
   if (!slots.list) {
-    assign_read(axis, slots.first, field, reading);
+    assign_read(axis, slots.first, field, draft);
     return;
   }
-  const std::string_view noun = noun_of(slots, reading.plan.table);
+  const std::string_view noun = noun_of(slots, draft.plan.table);
   const std::string expected = fmt::format("a list of {} {}, as at every point", slots.count, noun);
-  if (!yaml::check_list(field, expected, reading.problems)) return;
+  if (!yaml::check_list(field, expected, draft.problems)) return;
   const std::size_t count = field.node->items.size();
   if (count != slots.count) {
-    reading.problems.add(field, fmt::format("found a list of {} {}", count, noun), expected);
+    draft.problems.add(field, fmt::format("found a list of {} {}", count, noun), expected);
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
     const yaml::Field item = yaml::item_of(field, i);
-    assign_read(axis, slots.first + i, item, reading);
+    assign_read(axis, slots.first + i, item, draft);
   }
 }
 
@@ -55,27 +55,27 @@ void note_slots(SweptAxis& axis, const study::SlotRange& slots) {
 }
 
 void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const OptionWords& words,
-                 SweptAxis& axis, keys::Reading& reading) {
+                 SweptAxis& axis, keys::StudyDraft& draft) {
   const yaml::Field field = yaml::entry_of(options, entry);
   if (entry.key.find_first_not_of(" \t\r\n") == std::string::npos) {
-    reading.problems.add(entry.place, field.path, fmt::format("the name of the {} is empty", words.option),
-                         "a name");
+    draft.problems.add(entry.place, field.path, fmt::format("the name of the {} is empty", words.option),
+                       "a name");
   }
-  if (!yaml::check_map(field, "a map from dotted paths to values", reading.problems)) return;
+  if (!yaml::check_map(field, "a map from dotted paths to values", draft.problems)) return;
   std::set<std::size_t> in_this_option;
   for (const yaml::YamlEntry& assignment : field.node->entries) {
-    const auto slots = find_assigned(field, assignment, words.refusal, reading);
+    const auto slots = find_assigned(field, assignment, words.refusal, draft);
     if (!slots) continue;
     note_slots(axis, *slots);
     const std::size_t first = axis.axis.assignments.size();
-    read_assignments(yaml::entry_of(field, assignment), *slots, axis, reading);
+    read_assignments(yaml::entry_of(field, assignment), *slots, axis, draft);
     // Those of the rates of aging too.
     for (std::size_t i = first; i < axis.axis.assignments.size(); ++i) {
       const std::size_t slot = axis.axis.assignments[i].slot;
       if (in_this_option.insert(slot).second) continue;
-      reading.problems.add(
+      draft.problems.add(
           assignment.place, yaml::entry_of(field, assignment).path,
-          fmt::format("{} is given twice in this {}", reading.plan.table.rows[slot].name, words.option),
+          fmt::format("{} is given twice in this {}", draft.plan.table.rows[slot].name, words.option),
           "one value");
       break;
     }

@@ -71,41 +71,41 @@ bool is_unreadable(const study::StudyPlan& plan, std::size_t slot) {
 }
 
 // The slot of a parameter that is drawn at some design point, and that a copula can have.
-std::optional<std::uint32_t> read_drawn(const yaml::Field& field, keys::Reading& reading) {
+std::optional<std::uint32_t> read_drawn(const yaml::Field& field, keys::StudyDraft& draft) {
   const std::string& name = field.node->text;
-  const std::vector<std::string> known = drawn_names(reading.plan);
-  const auto slots = study::find_slots(name, reading.plan.table);
-  if (slots && slots->count == 1 && is_unreadable(reading.plan, slots->first)) return std::nullopt;
+  const std::vector<std::string> known = drawn_names(draft.plan);
+  const auto slots = study::find_slots(name, draft.plan.table);
+  if (slots && slots->count == 1 && is_unreadable(draft.plan, slots->first)) return std::nullopt;
   if (std::find(known.begin(), known.end(), name) == known.end() || !slots || slots->count != 1) {
     const std::string nearest =
         known.empty() ? "" : fmt::format(", nearest known: {}", yaml::nearest_name(name, known));
-    reading.problems.add(
+    draft.problems.add(
         field, fmt::format("{} is not a drawn parameter{}", yaml::in_quotes(name), nearest),
         known.empty() ? "parameters with distributions" : fmt::format("one of {}", fmt::join(known, ", ")));
     return std::nullopt;
   }
-  const std::vector<std::uint32_t>& sampled = reading.plan.sampled_slots;
+  const std::vector<std::uint32_t>& sampled = draft.plan.sampled_slots;
   if (std::find(sampled.begin(), sampled.end(), slots->first) != sampled.end()) {
-    reading.problems.add(field, fmt::format("{} cannot be correlated: its value comes from samples", name),
-                         "a distribution of its own");
+    draft.problems.add(field, fmt::format("{} cannot be correlated: its value comes from samples", name),
+                       "a distribution of its own");
     return std::nullopt;
   }
-  for (const study::Value* value : study::values_of(reading.plan, slots->first)) {
+  for (const study::Value* value : study::values_of(draft.plan, slots->first)) {
     const std::string fault = fault_of(*value);
     if (fault.empty()) continue;
-    reading.problems.add(field, fmt::format("{} cannot be correlated: {}", name, fault),
-                         "a distribution drawn for each world, machine or trial");
+    draft.problems.add(field, fmt::format("{} cannot be correlated: {}", name, fault),
+                       "a distribution drawn for each world, machine or trial");
     return std::nullopt;
   }
   return static_cast<std::uint32_t>(slots->first);
 }
 
-std::optional<Pair> read_pair(const yaml::Field& entry, keys::Reading& reading) {
-  const auto first = read_drawn(yaml::item_of(entry, 0), reading);
-  const auto second = read_drawn(yaml::item_of(entry, 1), reading);
+std::optional<Pair> read_pair(const yaml::Field& entry, keys::StudyDraft& draft) {
+  const auto first = read_drawn(yaml::item_of(entry, 0), draft);
+  const auto second = read_drawn(yaml::item_of(entry, 1), draft);
   if (!first || !second) return std::nullopt;
   if (*first == *second) {
-    reading.problems.add(entry, "a parameter cannot be correlated with itself", "two different parameters");
+    draft.problems.add(entry, "a parameter cannot be correlated with itself", "two different parameters");
     return std::nullopt;
   }
   return Pair{*first, *second, shapes::number_of(yaml::item_of(entry, 2))};
@@ -147,54 +147,53 @@ study::SquareMatrix matrix_of(const std::vector<Pair>& pairs, const std::vector<
   return matrix;
 }
 
-void make_copula(const yaml::Field& list, const std::vector<Pair>& pairs, keys::Reading& reading) {
+void make_copula(const yaml::Field& list, const std::vector<Pair>& pairs, keys::StudyDraft& draft) {
   study::GaussianCopula copula;
-  copula.slots = slots_of(pairs, reading.plan);
-  const auto level = common_level(copula.slots, reading.plan);
+  copula.slots = slots_of(pairs, draft.plan);
+  const auto level = common_level(copula.slots, draft.plan);
   if (!level) {
-    reading.problems.add(list,
-                         "these parameters are not drawn equally often: for each world, machine or trial",
-                         fmt::format("the same `{}` for all of them", keys::per_key));
+    draft.problems.add(list, "these parameters are not drawn equally often: for each world, machine or trial",
+                       fmt::format("the same `{}` for all of them", keys::per_key));
     return;
   }
   copula.level = *level;
   auto factor = study::cholesky_factor(matrix_of(pairs, copula.slots));
   if (!factor) {
-    reading.problems.add(list,
-                         "the correlation matrix, with 0 for the pairs not given, is not positive definite",
-                         "smaller coefficients, or coefficients of the other pairs too");
+    draft.problems.add(list,
+                       "the correlation matrix, with 0 for the pairs not given, is not positive definite",
+                       "smaller coefficients, or coefficients of the other pairs too");
     return;
   }
   copula.factor = std::move(*factor);
-  reading.plan.copula = std::move(copula);
+  draft.plan.copula = std::move(copula);
 }
 
 }  // namespace
 
-void read_correlations(const yaml::Field& root, keys::Reading& reading) {
+void read_correlations(const yaml::Field& root, keys::StudyDraft& draft) {
   const auto list = yaml::find_field(root, "correlation");
   if (!list) return;
   const shapes::Shape& shape = keys::shape_of("correlation");
-  if (!yaml::check_list(*list, shape.expected, reading.problems) || list->node->items.empty()) return;
+  if (!yaml::check_list(*list, shape.expected, draft.problems) || list->node->items.empty()) return;
   std::vector<Pair> pairs;
   std::set<std::set<std::uint32_t>> seen;
   bool complete = true;
   for (const yaml::Field& entry : shapes::items_of(*list)) {
     const auto pair =
-        shapes::read(entry, shape.parts.front(), reading.problems) ? read_pair(entry, reading) : std::nullopt;
+        shapes::read(entry, shape.parts.front(), draft.problems) ? read_pair(entry, draft) : std::nullopt;
     complete = complete && pair;
     if (!pair) continue;
     if (!seen.insert({pair->first, pair->second}).second) {
-      reading.problems.add(entry, "duplicate pair", "each pair once");
+      draft.problems.add(entry, "duplicate pair", "each pair once");
       complete = false;
       continue;
     }
     pairs.push_back(*pair);
-    reading.study.correlations.push_back({std::string(reading.plan.table.rows[pair->first].name),
-                                          std::string(reading.plan.table.rows[pair->second].name),
-                                          pair->coefficient});
+    draft.study.correlations.push_back({std::string(draft.plan.table.rows[pair->first].name),
+                                        std::string(draft.plan.table.rows[pair->second].name),
+                                        pair->coefficient});
   }
-  if (complete) make_copula(*list, pairs, reading);
+  if (complete) make_copula(*list, pairs, draft);
 }
 
 }  // namespace zerocount::sections

@@ -18,20 +18,20 @@ PluginLoader known_plugin(std::shared_ptr<const plugin::ControllerPlugin> plugin
   };
 }
 
-void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::Reading& reading) {
+void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::StudyDraft& draft) {
   const auto controller = yaml::find_field(root, "controller");
   const auto field = controller ? yaml::find_field(*controller, "plugin") : std::nullopt;
-  if (!field || !shapes::read(*field, keys::shape_of("controller.plugin"), reading.problems)) return;
+  if (!field || !shapes::read(*field, keys::shape_of("controller.plugin"), draft.problems)) return;
   if (!load) {
-    reading.problems.add(*field, "this command does not load plugins", "the command check, run or trace");
+    draft.problems.add(*field, "this command does not load plugins", "the command check, run or trace");
     return;
   }
   const LoadedPlugin loaded = load(field->node->text);
   if (const auto* fault = std::get_if<plugin::PluginFault>(&loaded)) {
-    reading.problems.add(*field, fault->what, fault->expected);
-    reading.plugin_failed = true;
+    draft.problems.add(*field, fault->what, fault->expected);
+    draft.plugin_failed = true;
   } else {
-    reading.plan.plugin = std::get<std::shared_ptr<const plugin::ControllerPlugin>>(loaded);
+    draft.plan.plugin = std::get<std::shared_ptr<const plugin::ControllerPlugin>>(loaded);
   }
 }
 

@@ -26,7 +26,7 @@ PluginLoader known_plugin(std::shared_ptr<const plugin::ControllerPlugin> plugin
 
 /// Reads the key `controller.plugin` into plan.plugin.
 /// @param load empty: the command does not load plugins
-void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::Reading& reading);
+void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::StudyDraft& draft);
 
 /// Function that reads the text of a table that a manifest names.
 /// @param what phrase for the message if the file cannot be read, "a table of samples"

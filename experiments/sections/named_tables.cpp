@@ -157,22 +157,22 @@ Recorded positions(bool linear, const std::string& column) {
 
 /// The reader of the tables that a manifest names, and the objects that the reading fills: problems, warnings
 /// and overrides.
-struct TableReading {
+struct TableReader {
   const SamplesReader& read;
   yaml::Problems& problems;
   std::vector<std::string>& warnings;
   std::vector<std::string> overrides{};
 };
 
-void add_spectra_below(const yaml::Field& disturbance, TableReading& reading) {
+void add_spectra_below(const yaml::Field& disturbance, TableReader& tables) {
   constexpr std::string_view expected = "a line 'frequency in Hz, density' for each point, such as 10, 1e-9";
   const auto list = yaml::find_field(disturbance, "vibration");
   if (!list || list->node->kind != yaml::YamlNode::Kind::list) return;
   for (const yaml::Field& element : shapes::items_of(*list)) {
     const auto field = yaml::find_field(element, "spectrum");
-    const auto table = named_table(field, "spectra", expected, reading.read, reading.problems);
-    const Pairs points = table ? points_of(*field, *table, expected, reading.problems) : Pairs{};
-    if (!points.empty()) reading.overrides.push_back(fmt::format("{}={}", field->path, list_of(points)));
+    const auto table = named_table(field, "spectra", expected, tables.read, tables.problems);
+    const Pairs points = table ? points_of(*field, *table, expected, tables.problems) : Pairs{};
+    if (!points.empty()) tables.overrides.push_back(fmt::format("{}={}", field->path, list_of(points)));
   }
 }
 
@@ -182,7 +182,7 @@ void add_spectra_below(const yaml::Field& disturbance, TableReading& reading) {
 /// @param place_of the place of a row
 template <class PlaceOf>
 void warn_of_gaps(const Pairs& rows, double first, const Recorded& recorded, std::string_view path,
-                  const PlaceOf& place_of, TableReading& reading) {
+                  const PlaceOf& place_of, TableReader& tables) {
   std::vector<double> times;
   for (const auto& [time, value] : rows) times.push_back(time);
   std::vector<tables::TimeGap> gaps = tables::time_gaps(times);
@@ -190,7 +190,7 @@ void warn_of_gaps(const Pairs& rows, double first, const Recorded& recorded, std
                 [&](const tables::TimeGap& gap) { return rows[gap.row].second == rows[gap.row - 1].second; });
   if (gaps.empty()) return;
   const tables::TimeGap& gap = gaps.front();
-  reading.warnings.push_back(yaml::at_place(
+  tables.warnings.push_back(yaml::at_place(
       place_of(gap.row), path,
       fmt::format("no rows for {:.6g} s, between {:.9g} and {:.9g} s, where others are {:.6g} s apart: {}{}",
                   gap.step, first + times[gap.row - 1], first + times[gap.row], gap.usual, recorded.between,
@@ -213,7 +213,7 @@ Pairs pairs_of_list(const yaml::Field& list) {
 /// The rows of the record in the file that the field names; empty if the field names no file, and after
 /// errors, which are reported. Warns of gaps in the times of the record, also if the manifest has a list of
 /// pairs instead of a file.
-Pairs pairs_in(const std::optional<yaml::Field>& field, const Recorded& recorded, TableReading& reading) {
+Pairs pairs_in(const std::optional<yaml::Field>& field, const Recorded& recorded, TableReader& tables) {
   const std::string expected =
       fmt::format("a header such as {}, and 2 to {} rows of numbers", recorded.header, keys::max_record_rows);
   if (field && field->node->kind == yaml::YamlNode::Kind::list) {
@@ -221,50 +221,50 @@ Pairs pairs_in(const std::optional<yaml::Field>& field, const Recorded& recorded
       const yaml::Place& place = field->node->items[row]->place;
       return place.line > 0 ? place : yaml::Place{"--set"};  // an override is as long as its list
     };
-    warn_of_gaps(pairs_of_list(*field), 0.0, recorded, field->path, place_of, reading);
+    warn_of_gaps(pairs_of_list(*field), 0.0, recorded, field->path, place_of, tables);
   }
-  const auto table = named_table(field, recorded.quantity, expected, reading.read, reading.problems);
+  const auto table = named_table(field, recorded.quantity, expected, tables.read, tables.problems);
   if (!table) return {};
   if (table->rows() < 2 || table->rows() > keys::max_record_rows) {
-    add_fault(*field, 1, fmt::format("the table has {} rows", table->rows()), expected, reading.problems);
+    add_fault(*field, 1, fmt::format("the table has {} rows", table->rows()), expected, tables.problems);
     return {};
   }
-  RecordTable record{*field, *table, recorded, reading.problems};
+  RecordTable record{*field, *table, recorded, tables.problems};
   Pairs pairs = record.pairs();
   const auto place_of = [&](std::size_t row) {
     return yaml::Place{field->node->text, static_cast<int>(table->line(row)), 1};
   };
-  if (!pairs.empty()) warn_of_gaps(pairs, record.first, recorded, field->path, place_of, reading);
+  if (!pairs.empty()) warn_of_gaps(pairs, record.first, recorded, field->path, place_of, tables);
   return pairs;
 }
 
-void add_torque(const yaml::Field& torque, bool linear, TableReading& reading) {
-  const Pairs pairs = pairs_in(yaml::find_field(torque, "file"), torques(linear), reading);
-  if (!pairs.empty()) reading.overrides.push_back(fmt::format("{}.file={}", torque.path, list_of(pairs)));
+void add_torque(const yaml::Field& torque, bool linear, TableReader& tables) {
+  const Pairs pairs = pairs_in(yaml::find_field(torque, "file"), torques(linear), tables);
+  if (!pairs.empty()) tables.overrides.push_back(fmt::format("{}.file={}", torque.path, list_of(pairs)));
 }
 
-void add_reference(const yaml::Field& reference, bool linear, TableReading& reading) {
+void add_reference(const yaml::Field& reference, bool linear, TableReader& tables) {
   const auto file = yaml::find_field(reference, "file");
   const auto column = yaml::find_field(reference, "column");
   if (column && file && file->node->kind == yaml::YamlNode::Kind::list)
-    return reading.problems.add(*column, "it has no effect: the record is a list of pairs",
-                                "the name of a table in command.reference.file, or the key left out");
+    return tables.problems.add(*column, "it has no effect: the record is a list of pairs",
+                               "the name of a table in command.reference.file, or the key left out");
   const bool is_named = column && column->node->kind == yaml::YamlNode::Kind::scalar;
-  const Pairs pairs = pairs_in(file, positions(linear, is_named ? column->node->text : "reference"), reading);
+  const Pairs pairs = pairs_in(file, positions(linear, is_named ? column->node->text : "reference"), tables);
   // The column goes with the table.
   if (!pairs.empty())
-    reading.overrides.push_back(fmt::format("{}={{file: {}}}", reference.path, list_of(pairs)));
+    tables.overrides.push_back(fmt::format("{}={{file: {}}}", reference.path, list_of(pairs)));
 }
 
-void add_records(const yaml::Field& root, TableReading& reading) {
+void add_records(const yaml::Field& root, TableReader& tables) {
   const auto command = yaml::find_field(root, "command");
   if (!command) return;
   const auto axis = yaml::find_field(root, "axis");
   const bool linear =
       axis && axis->node->kind == yaml::YamlNode::Kind::scalar && axis->node->text == "linear";
-  if (const auto torque = yaml::find_field(*command, "torque")) add_torque(*torque, linear, reading);
+  if (const auto torque = yaml::find_field(*command, "torque")) add_torque(*torque, linear, tables);
   if (const auto reference = yaml::find_field(*command, "reference"))
-    add_reference(*reference, linear, reading);
+    add_reference(*reference, linear, tables);
 }
 
 }  // namespace
@@ -331,13 +331,13 @@ std::shared_ptr<const trial::SpectrumParameters> read_spectrum(const yaml::Field
 
 std::vector<std::string> table_overrides(const yaml::YamlNode& root, const SamplesReader& read,
                                          yaml::Problems& problems, std::vector<std::string>& warnings) {
-  TableReading reading{read, problems, warnings};
+  TableReader tables{read, problems, warnings};
   if (const auto disturbance = yaml::find_field({&root, ""}, "disturbance")) {
-    add_spectra_below(*disturbance, reading);
-    if (const auto load = yaml::find_field(*disturbance, "load")) add_spectra_below(*load, reading);
+    add_spectra_below(*disturbance, tables);
+    if (const auto load = yaml::find_field(*disturbance, "load")) add_spectra_below(*load, tables);
   }
-  add_records({&root, ""}, reading);
-  return reading.overrides;
+  add_records({&root, ""}, tables);
+  return tables.overrides;
 }
 
 }  // namespace zerocount::sections

@@ -77,10 +77,10 @@ void insert_samples(yaml::YamlPointer& root, const SamplesReader& read, std::opt
 
 /// Makes the sampled parameters take their values from one row of the table in each draw: sets
 /// plan.sampled_slots and study.samples. The parameters and the sweep must be read already.
-void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, keys::Reading& reading);
+void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, keys::StudyDraft& draft);
 
 /// Reads the key `correlation`, a list of entries [first parameter, second parameter, coefficient], into
 /// plan.copula and study.correlations. The parameters and the sweep must be read already.
-void read_correlations(const yaml::Field& root, keys::Reading& reading);
+void read_correlations(const yaml::Field& root, keys::StudyDraft& draft);
 
 }  // namespace zerocount::sections

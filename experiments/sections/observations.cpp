@@ -41,8 +41,9 @@ void record(study::Study& study, const std::string& label, const Observation& ob
 
 }  // namespace
 
-void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, keys::Reading& reading) {
-  yaml::Problems& problems = reading.problems;
+void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes,
+                       keys::StudyDraft& draft) {
+  yaml::Problems& problems = draft.problems;
   if (!shapes::read(field, keys::shape_of("observed"), problems)) return;
   const std::vector<std::string> labels = label_points(axes);
   const bool has_cases = !axes.empty() && axes.front().cases;
@@ -51,7 +52,7 @@ void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& a
   known.insert(known.end(), labels.begin(), labels.end());
   std::map<std::string, Observation> found;
   for (const yaml::YamlEntry& entry : field.node->entries) {
-    found[entry.key] = observation_in(yaml::entry_of(field, entry), reading.plan.open_loop, problems);
+    found[entry.key] = observation_in(yaml::entry_of(field, entry), draft.plan.open_loop, problems);
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     problems.add(
         entry.place, yaml::entry_of(field, entry).path,
@@ -62,7 +63,7 @@ void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& a
     auto observation = found.find(labels[point]);
     if (observation == found.end() && !cases.empty())
       observation = found.find(cases[point / (labels.size() / cases.size())]);
-    if (observation != found.end()) record(reading.study, labels[point], observation->second);
+    if (observation != found.end()) record(draft.study, labels[point], observation->second);
   }
 }
 

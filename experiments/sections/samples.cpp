@@ -91,32 +91,32 @@ std::optional<tables::TextTable> read_samples(const yaml::Field& file, const Sam
 /// Whether the values of the sampled slots (parameters of the joint draws) are drawn equally often; reports
 /// an error if they are not.
 bool check_draw_levels(const SamplesTable& table, const std::vector<std::uint32_t>& slots,
-                       keys::Reading& reading) {
-  const auto level_of = [&](std::uint32_t slot) { return reading.plan.base[slot].level; };
+                       keys::StudyDraft& draft) {
+  const auto level_of = [&](std::uint32_t slot) { return draft.plan.base[slot].level; };
   const auto other = std::find_if(slots.begin(), slots.end(), [&](std::uint32_t slot) {
     return level_of(slot) != level_of(slots.front());
   });
   if (other == slots.end()) return true;
   const auto text_of = [&](std::uint32_t slot) {
-    return fmt::format("{} for each {}", reading.plan.table.rows[slot].name,
+    return fmt::format("{} for each {}", draft.plan.table.rows[slot].name,
                        keys::draw_level_labels[static_cast<std::size_t>(level_of(slot))]);
   };
-  reading.problems.add(table.field,
-                       fmt::format("a row is drawn as a whole, but the defaults of `per` differ: {}, and {}",
-                                   text_of(slots.front()), text_of(*other)),
-                       "{file: ..., per: machine}, or per: world or trial");
+  draft.problems.add(table.field,
+                     fmt::format("a row is drawn as a whole, but the defaults of `per` differ: {}, and {}",
+                                 text_of(slots.front()), text_of(*other)),
+                     "{file: ..., per: machine}, or per: world or trial");
   return false;
 }
 
 bool check_not_swept(const SamplesTable& table, const std::vector<std::uint32_t>& slots,
-                     const std::vector<SweptAxis>& axes, keys::Reading& reading) {
+                     const std::vector<SweptAxis>& axes, keys::StudyDraft& draft) {
   for (std::size_t column = 0; column < slots.size(); ++column) {
     const bool swept = std::any_of(axes.begin(), axes.end(), [&](const SweptAxis& axis) {
       return std::find(axis.slots.begin(), axis.slots.end(), slots[column]) != axis.slots.end();
     });
     if (!swept) continue;
-    reading.problems.add(table.columns[column], table.samples.parameters[column],
-                         "the sweep also gives this parameter a value", "the column or the sweep, not both");
+    draft.problems.add(table.columns[column], table.samples.parameters[column],
+                       "the sweep also gives this parameter a value", "the column or the sweep, not both");
     return false;
   }
   return true;
@@ -149,19 +149,19 @@ void insert_samples(yaml::YamlPointer& root, const SamplesReader& read, std::opt
   root = std::move(changed);
 }
 
-void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, keys::Reading& reading) {
+void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, keys::StudyDraft& draft) {
   std::vector<std::uint32_t> slots;
   for (const std::string& name : table.samples.parameters) {
-    const auto range = study::find_slots(name, reading.plan.table);
-    if (!range || reading.plan.base[range->first].kind != study::Value::Kind::distribution)
+    const auto range = study::find_slots(name, draft.plan.table);
+    if (!range || draft.plan.base[range->first].kind != study::Value::Kind::distribution)
       return;  // reported where it was read
     slots.push_back(static_cast<std::uint32_t>(range->first));
   }
   if (slots.empty()) return;  // the table could not be read, which is reported
-  if (!check_not_swept(table, slots, axes, reading) || !check_draw_levels(table, slots, reading)) return;
-  reading.study.samples = table.samples;
-  reading.study.samples->level = reading.plan.base[slots.front()].level;
-  reading.plan.sampled_slots = std::move(slots);
+  if (!check_not_swept(table, slots, axes, draft) || !check_draw_levels(table, slots, draft)) return;
+  draft.study.samples = table.samples;
+  draft.study.samples->level = draft.plan.base[slots.front()].level;
+  draft.plan.sampled_slots = std::move(slots);
 }
 
 }  // namespace zerocount::sections

@@ -17,37 +17,37 @@
 namespace zerocount::sections {
 namespace {
 
-struct SectionReading {
+struct SectionReader {
   const yaml::Field& root;
-  keys::Reading& reading;
+  keys::StudyDraft& draft;
   keys::PlanPlaces& places;
   std::string form{};  ///< key of the section `command` that defines the moves, such as "targets"
 
-  yaml::Problems& problems() { return reading.problems; }
-  study::StudyPlan& plan() { return reading.plan; }
+  yaml::Problems& problems() { return draft.problems; }
+  study::StudyPlan& plan() { return draft.plan; }
 };
 
 // Gives every row of the study's table a slot.
-void add_slots(SectionReading& s) {
+void add_slots(SectionReader& s) {
   const std::size_t slots = s.plan().table.rows.size();
   s.plan().base.resize(slots, keys::unreadable_value());
   s.places.base.resize(slots, s.root.node->place);
   s.places.written.resize(slots, false);
 }
 
-void read_slot(SectionReading& s, const yaml::Field& field, std::size_t slot) {
+void read_slot(SectionReader& s, const yaml::Field& field, std::size_t slot) {
   const auto take = [&](std::size_t taken, const study::Value& value) {
     s.plan().base[taken] = value;
     s.places.base[taken] = field.node->place;
     s.places.written[taken] = true;
   };
-  take(slot, keys::read_value(field, slot, s.reading));
-  if (!s.reading.rate) return;
+  take(slot, keys::read_value(field, slot, s.draft));
+  if (!s.draft.rate) return;
   add_slots(s);
-  take(s.reading.rate->slot, s.reading.rate->value);
+  take(s.draft.rate->slot, s.draft.rate->value);
 }
 
-void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
+void read_list(SectionReader& s, const yaml::Field& field, std::size_t row) {
   const parameters::ListOfValues list = s.plan().table.rows[row].list.value();
   const std::string expected = fmt::format("a list of {}", parameters::length_text(list));
   if (!yaml::check_list(field, expected, s.problems())) return;
@@ -65,7 +65,7 @@ void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
 // Gives a study whose manifest lacks the list of moves one with an unreadable value; that of a record the
 // level or the target 0, and a hold as long as the record. That of a recorded reference depends on the sample
 // rate, and study_trial() sets it for each trial.
-void complete_moves(SectionReading& s) {
+void complete_moves(SectionReader& s) {
   study::RowGroup& list = s.plan().list;
   if (list.count > 0) return;
   list = study::add_list(s.plan().table, list.row, 1);
@@ -81,7 +81,7 @@ void complete_moves(SectionReading& s) {
 
 // Reads the record that command.torque.file or command.reference.file has in place of levels or targets. A
 // name that is still there is that of a table whose problems are reported already; see table_overrides().
-void read_record(SectionReading& s, const yaml::Field& field) {
+void read_record(SectionReader& s, const yaml::Field& field) {
   s.places.record = field.node->place;
   if (field.node->kind == yaml::YamlNode::Kind::scalar && !s.problems().empty()) return;
   trial::CommandParameters& command = s.plan().common.command;
@@ -95,7 +95,7 @@ void read_record(SectionReading& s, const yaml::Field& field) {
   s.plan().base[shape] = {.number = static_cast<double>(loop::ReferenceShape::record)};
 }
 
-void read_parameter(SectionReading& s, const yaml::Field& field, std::size_t row) {
+void read_parameter(SectionReader& s, const yaml::Field& field, std::size_t row) {
   if (parameters::is_list(s.plan().table.rows[row])) return read_list(s, field, row);
   read_slot(s, field, row);
 }
@@ -107,7 +107,7 @@ std::string names_of(std::span<const parameters::ElementForm> forms) {
 }
 
 // The first form without a name that exists on this kind of axis.
-const parameters::ElementForm* find_form_by_keys(SectionReading& s, const yaml::Field& element,
+const parameters::ElementForm* find_form_by_keys(SectionReader& s, const yaml::Field& element,
                                                  const parameters::ElementList& list) {
   if (!yaml::check_map(element, "a map", s.problems())) return nullptr;
   const auto exists = [&](std::string_view key) {
@@ -121,7 +121,7 @@ const parameters::ElementForm* find_form_by_keys(SectionReading& s, const yaml::
 }
 
 // The form that an element has. Reports anything else, and returns null.
-const parameters::ElementForm* find_form(SectionReading& s, const yaml::Field& element,
+const parameters::ElementForm* find_form(SectionReader& s, const yaml::Field& element,
                                          const parameters::ElementList& list) {
   if (list.forms.front().name.empty()) return find_form_by_keys(s, element, list);
   const std::string expected = fmt::format("a map with one of {}", names_of(list.forms));
@@ -139,7 +139,7 @@ const parameters::ElementForm* find_form(SectionReading& s, const yaml::Field& e
   return nullptr;
 }
 
-void read_element(SectionReading& s, const yaml::Field& element, std::size_t index,
+void read_element(SectionReader& s, const yaml::Field& element, std::size_t index,
                   const parameters::ElementList& list) {
   if (parameters::has_spectra(list) && is_spectrum(element)) {
     list.add(s.plan().common, 0);  // a line of amplitude 0, so that places in the list and in the trial agree
@@ -174,7 +174,7 @@ void read_element(SectionReading& s, const yaml::Field& element, std::size_t ind
   }
 }
 
-void read_elements(SectionReading& s, const yaml::Field& field, const parameters::ElementList& list) {
+void read_elements(SectionReader& s, const yaml::Field& field, const parameters::ElementList& list) {
   const std::string expected = fmt::format("a list of at most {} {}s", list.max_elements, list.element);
   if (!yaml::check_list(field, expected, s.problems())) return;
   const std::size_t count = field.node->items.size();
@@ -185,7 +185,7 @@ void read_elements(SectionReading& s, const yaml::Field& field, const parameters
   for (std::size_t i = 0; i < count; ++i) read_element(s, yaml::item_of(field, i), i, list);
 }
 
-void add_plugin_parameters(SectionReading& s) {
+void add_plugin_parameters(SectionReader& s) {
   if (!s.plan().plugin) return;
   const plugin::PluginDescription& plugin = s.plan().plugin->description;
   const study::RowGroup rows = study::add_plugin(s.plan().table, plugin);
@@ -198,7 +198,7 @@ void add_plugin_parameters(SectionReading& s) {
   }
 }
 
-void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
+void read_plugin_parameters(SectionReader& s, const yaml::Field& map) {
   if (!s.plan().plugin) {
     // With a plugin that cannot be used, which is reported, its parameters are not known.
     const auto controller = yaml::find_field(s.root, "controller");
@@ -223,11 +223,11 @@ void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
 
 // Reads the keys of sections that are not parameters. controller.units and command.units are read earlier,
 // before all values.
-void read_general_key(SectionReading& s, const yaml::Field& field, const shapes::Shape& key) {
+void read_general_key(SectionReader& s, const yaml::Field& field, const shapes::Shape& key) {
   if (field.path == "command.torque.file" || field.path == "command.reference.file") {
     read_record(s, field);
   } else if (!field.path.ends_with(".units")) {
-    shapes::read(field, key, s.problems(), &s.reading);
+    shapes::read(field, key, s.problems(), &s.draft);
   }
 }
 
@@ -237,7 +237,7 @@ bool is_form(std::string_view key) {
 
 // Whether the path belongs to a second form of the command. Its contents are not read: it is reported as one
 // form too many.
-bool is_form_too_many(SectionReading& s, const yaml::Field& section, const std::string& key) {
+bool is_form_too_many(SectionReader& s, const yaml::Field& section, const std::string& key) {
   return section.path == keys::required_section && is_form(key) && key != s.form;
 }
 
@@ -254,7 +254,7 @@ bool is_short_form(const yaml::Field& field) {
       });
 }
 
-void read_section(SectionReading& s, const yaml::Field& section) {
+void read_section(SectionReader& s, const yaml::Field& section) {
   const std::vector<std::string> known = keys::keys_below(section.path);
   const std::string expected = fmt::format("a map of keys, such as {}: {{{}: ...}}",
                                            section.path.substr(section.path.rfind('.') + 1), known.front());
@@ -279,7 +279,7 @@ void read_section(SectionReading& s, const yaml::Field& section) {
   }
 }
 
-void take_defaults(SectionReading& s) {
+void take_defaults(SectionReader& s) {
   add_slots(s);
   const auto table = parameters::parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
@@ -292,7 +292,7 @@ void take_defaults(SectionReading& s) {
 }
 
 // Chooses the first form in the manifest; reports an error unless there is exactly one.
-void choose_form(SectionReading& s, const yaml::Field& command) {
+void choose_form(SectionReader& s, const yaml::Field& command) {
   if (command.node->kind != yaml::YamlNode::Kind::map) return;
   const std::string expected = fmt::format("exactly one of {}", fmt::join(keys::command_forms, ", "));
   std::vector<const yaml::YamlEntry*> given;
@@ -318,7 +318,7 @@ void choose_form(SectionReading& s, const yaml::Field& command) {
 }
 
 // Reports the keys of the form chosen that are missing.
-void check_form_complete(SectionReading& s, const yaml::Field& command) {
+void check_form_complete(SectionReader& s, const yaml::Field& command) {
   const auto form = yaml::find_field(command, s.form);
   if (!form || form->node->kind != yaml::YamlNode::Kind::map || yaml::find_field(*form, "file")) return;
   for (const std::string& key : keys::keys_below(form->path)) {
@@ -337,7 +337,7 @@ void check_form_complete(SectionReading& s, const yaml::Field& command) {
   }
 }
 
-void check_sequence_length(SectionReading& s, const yaml::Field& command) {
+void check_sequence_length(SectionReader& s, const yaml::Field& command) {
   if (!s.plan().sequence) return;
   const std::int64_t moves =
       study::sequence_move_count(*s.plan().sequence, static_cast<std::int64_t>(s.plan().list.count));
@@ -348,14 +348,14 @@ void check_sequence_length(SectionReading& s, const yaml::Field& command) {
 
 }  // namespace
 
-void read_sections(const yaml::Field& root, keys::Reading& reading, keys::PlanPlaces& places) {
-  SectionReading s{root, reading, places};
+void read_sections(const yaml::Field& root, keys::StudyDraft& draft, keys::PlanPlaces& places) {
+  SectionReader s{root, draft, places};
   const auto command = yaml::find_field(root, keys::required_section);
-  reading.plan.list.row = parameters::find_parameter(parameter::command::targets).value();
+  draft.plan.list.row = parameters::find_parameter(parameter::command::targets).value();
   if (command) {
     choose_form(s, *command);
   } else {
-    reading.problems.add_missing(root.node->place, keys::required_section, "command: {targets: [..]}");
+    draft.problems.add_missing(root.node->place, keys::required_section, "command: {targets: [..]}");
   }
   take_defaults(s);
   add_plugin_parameters(s);

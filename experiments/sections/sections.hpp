@@ -37,7 +37,7 @@ bool is_of_spectrum(const study::StudyPlan& plan, std::string_view path);
 /// path, which is reported with the nearest known path.
 /// @param refusal message about a key that is not a parameter
 std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml::YamlEntry& entry,
-                                              std::string_view refusal, keys::Reading& reading);
+                                              std::string_view refusal, keys::StudyDraft& draft);
 
 /// Adds the slots to SweptAxis::slots, unless they are there already.
 void note_slots(SweptAxis& axis, const study::SlotRange& slots);
@@ -45,7 +45,7 @@ void assign(SweptAxis& axis, std::size_t slot, const study::Value& value, const 
 /// Reads the values of `field` and assigns them to these slots in the current option of the axis.
 /// finish_option() ends the option.
 void read_assignments(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
-                      keys::Reading& reading);
+                      keys::StudyDraft& draft);
 void finish_option(SweptAxis& axis, std::string label);
 
 /// Gives the values of the axis that have no `aging` the law of aging that their parameter has outside the
@@ -64,18 +64,18 @@ struct OptionWords {
 /// Reads one option of the axis, such as a case of the sweep: a map from dotted paths of parameters to
 /// values.
 void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const OptionWords& words,
-                 SweptAxis& axis, keys::Reading& reading);
+                 SweptAxis& axis, keys::StudyDraft& draft);
 
 /// Reads `ages: {at: [0, 1.0e+5], unit: cycles}` into the study and its plan. Must come before the values
 /// that change with age.
 /// @param root the manifest
-void read_ages(const yaml::Field& root, keys::Reading& reading);
+void read_ages(const yaml::Field& root, keys::StudyDraft& draft);
 
 /// The axis whose options are the settings of the study: all pairs of a condition and an age. The axis has no
 /// options if there are neither conditions nor ages. Reports too many settings, and removes them from the
 /// study.
 /// @param conditions result of read_conditions(); without options if there are no conditions
-SweptAxis settings_axis(const SweptAxis& conditions, keys::Reading& reading);
+SweptAxis settings_axis(const SweptAxis& conditions, keys::StudyDraft& draft);
 
 /// Reads `conditions: {NAME: {PATH: value}}` as the last axis of the plan: an override is another value of
 /// its slot, drawn as often as the parameter and with the same random number. Reports an override of a
@@ -83,18 +83,18 @@ SweptAxis settings_axis(const SweptAxis& conditions, keys::Reading& reading);
 /// @param swept axes of the sweep; all parameters must be read already
 /// @return an axis without options, after a report, if there are none
 SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>& swept,
-                          keys::Reading& reading);
+                          keys::StudyDraft& draft);
 
 /// Reports overrides by conditions of parameters that come from the table `samples`, or that `tune` may
 /// change.
 /// @param root the manifest.
 /// @param sampled [sampled slot of the plan] place in the header of the table
 void check_overrides(const yaml::Field& root, const SweptAxis& conditions,
-                     const std::vector<yaml::Place>& sampled, keys::Reading& reading);
+                     const std::vector<yaml::Place>& sampled, keys::StudyDraft& draft);
 
 /// Reads `goal`, or `goals`, of the manifest. Adds the error bands and tolerances of the goals to those that
 /// the trials measure. The study's machines and all parameters must be read already.
-void read_goals(const yaml::Field& root, keys::Reading& reading);
+void read_goals(const yaml::Field& root, keys::StudyDraft& draft);
 
 /// Lets the trials of a sequence measure the position of a load whose encoder does not close the loop. The
 /// study's goals must be read already.
@@ -102,11 +102,11 @@ void measure_both_masses(study::StudyPlan& plan);
 
 /// Reads the sequential stopping rule `stop`. The manifest's `trials` become the number of trials between two
 /// tests of the rule, and the study's number of trials becomes the maximum.
-void read_stop(const yaml::Field& field, keys::Reading& reading);
+void read_stop(const yaml::Field& field, keys::StudyDraft& draft);
 
 /// Reads the section `tune`: parameters that the tuning may change, criterion and margins. The study's goal
 /// and all parameters must be read already.
-void read_tuning(const yaml::Field& field, keys::Reading& reading);
+void read_tuning(const yaml::Field& field, keys::StudyDraft& draft);
 
 /// Reads `sweep: {grid, cases}`. The cases are the slowest axis, followed by the keys of the grid in their
 /// order, the last one fastest. If both give a value to a parameter, the grid takes precedence, with a
@@ -114,7 +114,7 @@ void read_tuning(const yaml::Field& field, keys::Reading& reading);
 /// is n numbers with equal distances from a to b, both included; `logspace: [a, b, n]` is n numbers with
 /// equal ratios from a to b (values, not exponents). The values between the ends are rounded to 15
 /// significant digits.
-std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, keys::Reading& reading);
+std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, keys::StudyDraft& draft);
 
 /// The labels of all design points, such as "a, controller.kp=0"; {"all"} if the study sweeps nothing.
 std::vector<std::string> label_points(const std::vector<SweptAxis>& axes);
@@ -127,11 +127,11 @@ std::vector<study::SweepAxis> describe_axes(const std::vector<SweptAxis>& axes, 
 /// study.observed_counts. An observation is a text, or counts: {successes: 9, of: 10, text: what else}. The
 /// observation of a case applies to all its points, except those with their own observation.
 /// @param axes all axes of the sweep
-void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, keys::Reading& reading);
+void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, keys::StudyDraft& draft);
 
 /// Reads the parameter sections of the manifest `root`: the plan's list, its sequence and its base values,
 /// and their places. Missing values get their defaults.
-void read_sections(const yaml::Field& root, keys::Reading& reading, keys::PlanPlaces& places);
+void read_sections(const yaml::Field& root, keys::StudyDraft& draft, keys::PlanPlaces& places);
 
 constexpr std::size_t max_points = 1'000'000;  ///< maximum number of points of a sweep
 

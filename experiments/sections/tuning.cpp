@@ -94,38 +94,38 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
 
 /// Reports parameters that `tune` may change although they have no effect for any values of the free
 /// parameters.
-void check_effects_of_free(const yaml::Field& map, const study::Tuning& tuning, keys::Reading& reading) {
+void check_effects_of_free(const yaml::Field& map, const study::Tuning& tuning, keys::StudyDraft& draft) {
   const auto is_free = [&](std::string_view name) {
     return std::ranges::find(tuning.free, name, &study::FreeParameter::name) != tuning.free.end();
   };
-  for (const rules::EffectRule& rule : rules::effect_rules(reading.plan)) {
+  for (const rules::EffectRule& rule : rules::effect_rules(draft.plan)) {
     if (rule.warn_only || std::ranges::any_of(rule.depends_on, is_free) ||
-        rules::can_have_effect(reading.plan, rule))
+        rules::can_have_effect(draft.plan, rule))
       continue;
     for (const yaml::YamlEntry& entry : map.node->entries) {
       if (!is_free(entry.key) || !rules::covers(rule, entry.key)) continue;
-      reading.problems.add(entry.place, yaml::entry_of(map, entry).path,
-                           parameters::text_on(reading.plan.units.axis, rule.what), rule.expected);
+      draft.problems.add(entry.place, yaml::entry_of(map, entry).path,
+                         parameters::text_on(draft.plan.units.axis, rule.what), rule.expected);
     }
   }
 }
 
 }  // namespace
 
-void read_tuning(const yaml::Field& field, keys::Reading& reading) {
-  std::optional<study::Tuning>& tuning = reading.study.tuning;
+void read_tuning(const yaml::Field& field, keys::StudyDraft& draft) {
+  std::optional<study::Tuning>& tuning = draft.study.tuning;
   tuning.emplace();
-  shapes::read(field, keys::shape_of("tune"), reading.problems, &reading);
+  shapes::read(field, keys::shape_of("tune"), draft.problems, &draft);
   if (field.node->kind != yaml::YamlNode::Kind::map) return tuning.reset();
   yaml::Problems reported;
   if (const auto free = yaml::find_field(field, "free");
       free && shapes::read(*free, keys::shape_of("tune.free"), reported)) {
-    read_free(*free, reading.plan, *tuning, reading.problems);
-    check_effects_of_free(*free, *tuning, reading);
+    read_free(*free, draft.plan, *tuning, draft.problems);
+    check_effects_of_free(*free, *tuning, draft);
   }
-  if (reading.study.goals.empty())
-    reading.problems.add(field, "without a goal there is nothing to meet",
-                         "goal: {band: 1, within: 0.05, moves: 0.99}");
+  if (draft.study.goals.empty())
+    draft.problems.add(field, "without a goal there is nothing to meet",
+                       "goal: {band: 1, within: 0.05, moves: 0.99}");
 }
 
 }  // namespace zerocount::sections

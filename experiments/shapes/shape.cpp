@@ -15,11 +15,11 @@ namespace {
 using Form = Shape::Form;
 using Kind = yaml::YamlNode::Kind;
 
-/// Reads values by their shapes. Reports faults to `problems` and stores values in `reading` (null: stores
+/// Reads values by their shapes. Reports faults to `problems` and stores values in `draft` (null: stores
 /// none).
 struct Reader {
   yaml::Problems& problems;
-  Reading* reading;
+  StudyDraft* draft;
 
   bool value(const yaml::Field& field, const Shape& shape);
   bool value_of_form(const yaml::Field& field, const Shape& shape);
@@ -56,7 +56,7 @@ bool is_blank(std::string_view text) {
 }
 
 void Reader::set_none(const Shape& shape) {
-  if (reading != nullptr && shape.set) shape.set(*reading, shape, nullptr);
+  if (draft != nullptr && shape.set) shape.set(*draft, shape, nullptr);
   for (const Shape& part : shape.parts) set_none(part);
 }
 
@@ -70,11 +70,11 @@ bool Reader::value(const yaml::Field& field, const Shape& shape) {
   }
   const auto preset = std::ranges::find_if(shape.presets, is_word, [](const auto& one) { return one.first; });
   if (preset != shape.presets.end()) {
-    if (reading != nullptr) preset->second(*reading);
+    if (draft != nullptr) preset->second(*draft);
     return true;
   }
   if (!value_of_form(field, shape)) return false;
-  if (reading != nullptr && shape.set) shape.set(*reading, shape, &field);
+  if (draft != nullptr && shape.set) shape.set(*draft, shape, &field);
   return true;
 }
 
@@ -193,7 +193,7 @@ bool Reader::entries(const yaml::Field& field, const Shape& shape) {
                    fmt::format("the name of the {} is empty, or has two lines", shape.entry), "a name");
       sound = false;
     }
-    if (reading != nullptr && shape.add) shape.add(*reading, entry.key);
+    if (draft != nullptr && shape.add) shape.add(*draft, entry.key);
     sound = value(value_of_entry, shape.parts.front()) && sound;
   }
   return sound;
@@ -232,13 +232,13 @@ void limit_items(Shape& map, std::string_view list, std::int64_t highest) {
   key.parts.front().range.high = static_cast<double>(std::max<std::int64_t>(highest, 0));
 }
 
-bool read(const yaml::Field& field, const Shape& shape, yaml::Problems& problems, Reading* reading) {
-  return Reader{problems, reading}.value(field, shape);
+bool read(const yaml::Field& field, const Shape& shape, yaml::Problems& problems, StudyDraft* draft) {
+  return Reader{problems, draft}.value(field, shape);
 }
 
 void read_keys(const yaml::Field& map, std::span<const Shape> keys, yaml::Problems& problems,
-               Reading* reading) {
-  Reader{problems, reading}.keys(map, keys);
+               StudyDraft* draft) {
+  Reader{problems, draft}.keys(map, keys);
 }
 
 double number_of(const yaml::Field& field) {

@@ -16,12 +16,12 @@
 #include "experiments/yaml/scalars.hpp"
 
 namespace zerocount::keys {
-struct Reading;  // keys/values.hpp: where the values of a manifest are stored
+struct StudyDraft;  // keys/values.hpp: where the values of a manifest are stored
 }
 
 namespace zerocount::shapes {
 
-using keys::Reading;
+using keys::StudyDraft;
 
 /// The allowed form of the value of a manifest key that is not a parameter, or of a value inside such a key.
 /// Such a value cannot be drawn or swept. The reader with its messages (read), the JSON Schema
@@ -61,7 +61,7 @@ struct Shape {
   /// Word that may stand in place of the number, or of all numbers of the map; empty: none.
   std::string_view none{};
   /// Words that may stand in place of a map, each with a function that stores the values that the word means.
-  std::vector<std::pair<std::string_view, void (*)(Reading&)>> presets{};
+  std::vector<std::pair<std::string_view, void (*)(StudyDraft&)>> presets{};
   /// Text after "expected" in messages about a wrong value; empty for numbers and labels, whose text follows
   /// from `range` or `labels`.
   std::string expected{};
@@ -79,10 +79,10 @@ struct Shape {
   std::vector<std::string> patterns{};
   /// Creates the object in which the value of an entry (of a map from names to values) is stored, before that
   /// value is read.
-  std::function<void(Reading&, const std::string& entry)> add{};
+  std::function<void(StudyDraft&, const std::string& entry)> add{};
   /// Stores a value that was read with this shape; a null field stands for the word `none`. Empty: other code
   /// reads the value where it is needed.
-  std::function<void(Reading&, const Shape&, const yaml::Field*)> set{};
+  std::function<void(StudyDraft&, const Shape&, const yaml::Field*)> set{};
   Standard standard{};  ///< default if the key is absent
 
   bool required() const { return !if_missing.empty(); }
@@ -102,14 +102,15 @@ Shape real(const numerics::Interval& range, Shape key = {});
 void limit_items(Shape& map, std::string_view list, std::int64_t highest);
 
 /// Checks the value in `field` against the shape, and reports every deviation. Values with a setter are
-/// stored in `reading`, unless it is null; of a faulty value, the valid parts are stored.
+/// stored in `draft`, unless it is null; of a faulty value, the valid parts are stored.
 /// @return whether the value is valid
-bool read(const yaml::Field& field, const Shape& shape, yaml::Problems& problems, Reading* reading = nullptr);
+bool read(const yaml::Field& field, const Shape& shape, yaml::Problems& problems,
+          StudyDraft* draft = nullptr);
 
 /// Reads the keys of `map` as read() does, and reports required keys that are missing. The caller must report
 /// unknown keys.
 void read_keys(const yaml::Field& map, std::span<const Shape> keys, yaml::Problems& problems,
-               Reading* reading);
+               StudyDraft* draft);
 
 // Values of a field that has its shape; NaN, 0 or none of another one, which is reported.
 

@@ -127,7 +127,10 @@ function(zerocount_install target folder)
 endfunction()
 
 # zerocount_folder([NUMBERS] SOURCES ... [ALONE ...] LINKS ...): makes the folder of this CMakeLists.txt a library; core/friction becomes the
-# target zerocount::core::friction. NUMBERS: its run time matters. ALONE: sources with their own compile options.
+# target zerocount::core::friction. NUMBERS: compiled with -O2, because a command takes more than 5 % longer without it. ALONE: sources with
+# their own compile options. Measured without -O2 in one folder: record/fit and record/sliding_identification, `experiment` 1.44 and
+# `identify --sliding` 3.2 times as long; experiments/rules, `tune` 1.10. Without it in all folders: `judge` 2.3, `learn` 2.1, `summary` of
+# 100 000 points 1.25, `compare` 1.13.
 function(zerocount_folder)
   cmake_parse_arguments(ARG "NUMBERS" "" "SOURCES;ALONE;LINKS" ${ARGN})
   file(RELATIVE_PATH folder "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")

@@ -48,7 +48,7 @@ def dear_by_night(places: Iterable[Any]) -> list[Any]:
 def first_study(root: pathlib.Path, path: pathlib.Path) -> None:
     """Writes the manifest of the README's first study."""
     text = (root / "README.md").read_text(encoding="utf-8")
-    path.write_text(re.search(r"```yaml\n(zerocount: 1\nname: my-axis\n.*?)```", text, re.DOTALL)[1], encoding="utf-8")
+    path.write_text(re.search(r"```yaml\n(zerocount: 1\b[^`]*\nname: my-axis\n.*?)```", text, re.DOTALL)[1], encoding="utf-8")
 
 
 def short_first_study(root: pathlib.Path, path: pathlib.Path) -> None:

@@ -131,7 +131,7 @@ def manifest_of(claim, root):
     source = claim["manifest"]
     if not source.endswith(".md"):
         return (root / f"experiments/manifests/{source}.yaml").read_text(encoding="utf-8")
-    blocks = re.findall(r"```yaml\n(zerocount: 1\n.*?)```", (root / source).read_text(encoding="utf-8"), re.S)
+    blocks = re.findall(r"```yaml\n(zerocount: 1\b.*?)```", (root / source).read_text(encoding="utf-8"), re.S)
     return blocks[0]
 
 

@@ -19,7 +19,7 @@ MARK = re.compile(r"<!-- (run|run by \S+|not run: [^\n]+) -->\n+\Z")
 FENCED = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 INDENTED = re.compile(r"(?:(?<=\n\n)|(?<=-->\n))(?:    \S.*\n)+")
 COMMAND = re.compile(r"(\./quickstart|cmake|ctest|zerocount|python3|sqlite3|taskset|[\w/.-]+/(zerocount|[a-z]+_tests?|pip))\s|\w+=\S+ python3")
-STUDY = re.compile(r"^zerocount: 1$.*?(?=^```$)", re.MULTILINE | re.DOTALL)
+STUDY = re.compile(r"^zerocount: 1\b.*?(?=^```$)", re.MULTILINE | re.DOTALL)
 PATIENCE = 60  # s
 
 
